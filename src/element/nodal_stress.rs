@@ -22,8 +22,14 @@ pub fn nodal_stresses<const N: usize>(
     law: &PlaneLaw,
     heat: Option<&Heat>,
 ) -> Result<[([f64; 4], f64); N], BadJacobian> {
-    if N == 6 && heat.is_none() && law.plane != Plane::Revolution && is_straight(nodes) {
-        return straight(nodes, u, law);
+    if heat.is_none() && law.plane != Plane::Revolution {
+        if N == 3 {
+            let (stress, (_, determinant)) = (heated_stress(nodes, u, NODES[0], law, None)?, jacobian(nodes, NODES[0])?);
+            return Ok([(stress, determinant); N]);
+        }
+        if is_straight(nodes) {
+            return straight(nodes, u, law);
+        }
     }
     let mut found = [([0.0; 4], 0.0); N];
     for (found, l) in found.iter_mut().zip(NODES) {

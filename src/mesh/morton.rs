@@ -6,6 +6,10 @@ use crate::geometry::Point;
 /// Meshes of more triangles are put in order: what passes over them finds neighbours in the caches then.
 const LARGE: usize = 10_000;
 
+/// Bits of a place along the curve: 21 of each coordinate. Those above them tell the physical surface, of which there are fewer
+/// than 2^22.
+const PLACE_BITS: u32 = 42;
+
 /// Places along the curve in the box around some points.
 pub(super) struct MortonCurve {
     low: Point,
@@ -22,7 +26,7 @@ impl MortonCurve {
         Self { low, size: (high - low).max() }
     }
 
-    /// The place of a triangle, by its middle: below 2^42.
+    /// The place of a triangle, by its middle: of [`PLACE_BITS`] bits.
     pub fn place(&self, points: &[Point], corners: [u32; 3]) -> u64 {
         let [a, b, c] = corners.map(|corner| points[corner as usize]);
         let middle = ((a + b + c) / 3.0 - self.low) / self.size * f64::from(1u32 << 20);
@@ -45,11 +49,12 @@ impl RawMesh {
             return;
         }
         let curve = MortonCurve::around(&self.vertices);
-        let key =
-            |(at, triangle): (usize, &RawTriangle)| (triangle.names, curve.place(&self.vertices, triangle.corners), at as u32);
-        let mut order: Vec<(u32, u64, u32)> = self.triangles.iter().enumerate().map(key).collect();
+        let key = |(at, triangle): (usize, &RawTriangle)| {
+            (u64::from(triangle.names) << PLACE_BITS | curve.place(&self.vertices, triangle.corners), at as u32)
+        };
+        let mut order: Vec<(u64, u32)> = self.triangles.iter().enumerate().map(key).collect();
         order.sort_unstable();
-        self.triangles = order.iter().map(|&(_, _, at)| self.triangles[at as usize]).collect();
+        self.triangles = order.iter().map(|&(_, at)| self.triangles[at as usize]).collect();
         let mut new = vec![u32::MAX; self.vertices.len()];
         let mut vertices = Vec::with_capacity(self.vertices.len());
         for corner in self.triangles.iter_mut().flat_map(|triangle| &mut triangle.corners) {

@@ -33,6 +33,9 @@ pub struct Deformation {
 /// Integrals over a macro triangle: of the larger principal strain, of 1, of the rotation, of the work on its growth.
 type TriangleIntegrals = [f64; 4];
 
+/// Integrals over a body: of 1, of the rotation, of the work on its growth, of the place.
+type BodyIntegrals = [f64; 5];
+
 /// Strain, rotation and growth of each body. Strains are means over a macro triangle; where these are hardly refined, over it
 /// and its neighbours. So a corner where the strain is singular counts by what its surroundings see, on fine meshes as on
 /// coarse ones. **Collective**
@@ -41,20 +44,25 @@ type TriangleIntegrals = [f64; 4];
 /// [`SystemError`] from an inverted triangle.
 pub fn deformations(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<Deformation>, SystemError> {
     let (mesh, laws) = (&problem.scene.mesh, problem.scene.laws());
-    let mut sums: Vec<TriangleIntegrals> = vec![TriangleIntegrals::default(); mesh.triangles.len()];
+    let mut totals = vec![BodyIntegrals::default(); mesh.bodies.len()];
+    // What neighbours need of a macro triangle: its strain and its area.
+    let mut sums = vec![[0.0; 2]; mesh.triangles.len()];
     let own = problem.scene.partition.triangles_of(session.rank());
-    let added = own.iter().try_for_each(|&triangle| {
-        let part = mesh.triangles[triangle as usize].part as usize;
-        let material = (&laws[part], problem.scene.heat(part));
-        sums[triangle as usize] = match problem.finest().numbering.level.order {
-            Order::P1 => integrals::<3>(problem, u, triangle as usize, material)?,
-            Order::P2 => integrals::<6>(problem, u, triangle as usize, material)?,
+    let added = own.iter().try_for_each(|&at| {
+        let triangle = &mesh.triangles[at as usize];
+        let material = (&laws[triangle.part as usize], problem.scene.heat(triangle.part as usize));
+        let found = match problem.finest().numbering.level.order {
+            Order::P1 => integrals::<3>(problem, u, at as usize, material)?,
+            Order::P2 => integrals::<6>(problem, u, at as usize, material)?,
         };
+        add_to_body(&mut totals[triangle.body as usize], &found, centroid(mesh, triangle));
+        sums[at as usize] = [found[0], found[1]];
         Ok(())
     });
     agreed(session, added)?;
+    session.sum(totals.as_flattened_mut());
     session.sum(sums.as_flattened_mut());
-    let mut found = whole_bodies(mesh, &sums);
+    let mut found = whole_bodies(mesh, &totals);
     for _ in problem.scene.refine..MANY {
         sums = with_neighbours(mesh, &sums);
     }
@@ -67,16 +75,16 @@ pub fn deformations(problem: &Discretisation, u: &Field<2>, session: &Session) -
     Ok(found)
 }
 
+/// Adds the integrals over a macro triangle with this centroid to those of its body.
+fn add_to_body(sum: &mut BodyIntegrals, [_, area, rotation, growth]: &TriangleIntegrals, centroid: Point) {
+    let values = [*area, *rotation, *growth, centroid.x * area, centroid.y * area];
+    sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+}
+
 /// What is known of each body as a whole; its strain is left at zero.
-fn whole_bodies(mesh: &MacroMesh, sums: &[TriangleIntegrals]) -> Vec<Deformation> {
-    let mut totals = vec![(TriangleIntegrals::default(), Point::zeros()); mesh.bodies.len()];
-    for (triangle, sum) in mesh.triangles.iter().zip(sums) {
-        let (total, moment) = &mut totals[triangle.body as usize];
-        (0..sum.len()).for_each(|k| total[k] += sum[k]);
-        *moment += centroid(mesh, triangle) * sum[1];
-    }
-    let whole = |&([_, area, rotation, growth], moment): &(TriangleIntegrals, Point)| {
-        let middle = moment / area;
+fn whole_bodies(mesh: &MacroMesh, totals: &[BodyIntegrals]) -> Vec<Deformation> {
+    let whole = |&[area, rotation, growth, x, y]: &BodyIntegrals| {
+        let middle = Point::new(x, y) / area;
         Deformation { strain: 0.0, place: middle, rotation: rotation / area, growth, middle, radius: 0.0 }
     };
     let mut found: Vec<Deformation> = totals.iter().map(whole).collect();
@@ -102,7 +110,7 @@ fn centroid(mesh: &MacroMesh, triangle: &MacroTriangle) -> Point {
 }
 
 /// Each sum with those of the macro triangles beside it.
-fn with_neighbours(mesh: &MacroMesh, sums: &[TriangleIntegrals]) -> Vec<TriangleIntegrals> {
+fn with_neighbours(mesh: &MacroMesh, sums: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut wider = sums.to_vec();
     for edge in &mesh.edges {
         let [Some(a), Some(b)] = edge.triangles.map(|triangle| triangle.map(|triangle| triangle as usize)) else { continue };
@@ -177,9 +185,12 @@ mod tests {
         let mesh = crate::mesh::samples::two_blocks();
         let body = mesh.bodies.iter().position(|name| name == "lower").expect("a body");
         let own: Vec<usize> = (0..mesh.triangles.len()).filter(|&k| mesh.triangles[k].body as usize == body).collect();
-        let mut sums = vec![[9.0, 9.0, 9.0, 9.0]; mesh.triangles.len()];
-        (sums[own[0]], sums[own[1]]) = ([0.0, 1.0, 0.02, 0.3], [0.0, 3.0, 0.18, 0.5]);
-        let found = &whole_bodies(&mesh, &sums)[body];
+        let mut totals = vec![[9.0; 5]; mesh.bodies.len()];
+        totals[body] = BodyIntegrals::default();
+        for (triangle, integrals) in own.iter().zip([[0.0, 1.0, 0.02, 0.3], [0.0, 3.0, 0.18, 0.5]]) {
+            add_to_body(&mut totals[body], &integrals, centroid(&mesh, &mesh.triangles[*triangle]));
+        }
+        let found = &whole_bodies(&mesh, &totals)[body];
         assert!((found.rotation - 0.05).abs() < 1e-12 && (found.growth - 0.8).abs() < 1e-12);
         let [a, b] = [0, 1].map(|k| centroid(&mesh, &mesh.triangles[own[k]]));
         assert!((found.middle - (0.25 * a + 0.75 * b)).norm() < 1e-12);

@@ -53,8 +53,16 @@ type LatticeNode = (usize, (usize, usize));
 
 /// All nodes of this rank's macro triangles, each with its part and its number.
 fn all_nodes<'a>(problem: &'a Discretisation, session: &Session) -> impl Iterator<Item = (LatticeNode, usize, usize)> + 'a {
+    nodes_of(problem, problem.scene.partition.triangles_of(session.rank()).iter().copied())
+}
+
+/// All nodes of some macro triangles.
+fn nodes_of<'a>(
+    problem: &'a Discretisation,
+    triangles: impl Iterator<Item = u32> + 'a,
+) -> impl Iterator<Item = (LatticeNode, usize, usize)> + 'a {
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
-    problem.scene.partition.triangles_of(session.rank()).iter().flat_map(move |&triangle| {
+    triangles.flat_map(move |triangle| {
         let (part, numbers) = (mesh.triangles[triangle as usize].part as usize, numbering.triangle(mesh, triangle as usize));
         lattice::nodes(numbering.level.intervals).map(move |at| ((triangle as usize, at), part, numbers.node(at.0, at.1)))
     })
@@ -79,11 +87,23 @@ pub fn stress_peaks(
     session: &Session,
 ) -> Vec<StressPeak> {
     let mesh = &problem.scene.mesh;
-    let largest = largest(problem, stress, session);
     let level = problem.finest().numbering.level;
+    // Macro triangles where the stress is as large as before them, or nearly: among them are those of the largest one.
+    let mut largest = vec![0.0_f64; mesh.parts.len()];
+    let mut candidates: Vec<u32> = Vec::new();
+    for ((triangle, _), part, node) in all_nodes(problem, session) {
+        let stress = von_mises(stress.at(part, node));
+        if stress >= (1.0 - ALIKE) * largest[part] {
+            largest[part] = largest[part].max(stress);
+            if candidates.last() != Some(&(triangle as u32)) {
+                candidates.push(triangle as u32);
+            }
+        }
+    }
+    session.max(&mut largest);
     // How far the node lies in the direction, its number, its place and its displacement.
     let mut own = vec![[f64::INFINITY; 6]; largest.len()];
-    for ((triangle, at), part, node) in all_nodes(problem, session) {
+    for ((triangle, at), part, node) in nodes_of(problem, candidates.iter().copied()) {
         if von_mises(stress.at(part, node)) < (1.0 - ALIKE) * largest[part] {
             continue;
         }
@@ -99,7 +119,7 @@ pub fn stress_peaks(
         *first = if found[0] < first[0] { *found } else { *first };
     }
     let nodes: Vec<usize> = firsts.iter().map(|first| first[1] as usize).collect();
-    let edges = edges_at(problem, &nodes, session);
+    let edges = edges_at(problem, &nodes, &candidates, session);
     let size = mesh.vertices.iter().map(|x| x.amax()).fold(0.0, f64::max);
     let peak = |(part, [_, _, x, y, ux, uy]): (usize, [f64; 6])| {
         let (place, displacement) = (without_rounding(Point::new(x, y), size), Point::new(ux, uy));
@@ -112,12 +132,14 @@ pub fn stress_peaks(
     firsts.into_iter().enumerate().map(peak).collect()
 }
 
-/// The longest edge of a triangle at a node of each part (length). **Collective**
-fn edges_at(problem: &Discretisation, nodes: &[usize], session: &Session) -> Vec<f64> {
+/// The longest edge of a triangle at a node of each part (length); `triangles` have all that lie there on this rank. **Collective**
+fn edges_at(problem: &Discretisation, nodes: &[usize], triangles: &[u32], session: &Session) -> Vec<f64> {
     let (mesh, level) = (&problem.scene.mesh, problem.finest().numbering.level);
     let step = level.order.degree();
     let mut longest = vec![0.0_f64; nodes.len()];
-    for ((triangle, (i, j)), part, _) in all_nodes(problem, session).filter(|(_, part, node)| nodes[*part] == *node) {
+    for ((triangle, (i, j)), part, _) in
+        nodes_of(problem, triangles.iter().copied()).filter(|(_, part, node)| nodes[*part] == *node)
+    {
         let here = mesh.node_position(triangle, level, (i, j));
         let beside = [(i + step, j), (i, j + step)].into_iter().chain(i.checked_sub(step).map(|i| (i, j)));
         let beside = beside.chain(j.checked_sub(step).map(|j| (i, j)));

@@ -17,26 +17,22 @@ impl MacroMesh {
     /// If a body falls into very many, or two pieces have a node in common: it would be a hinge, and a point transmits no
     /// force in the plane.
     pub(crate) fn find_pieces(&mut self) -> Result<(), MeshError> {
-        let mut piece = vec![u32::MAX; self.triangles.len()];
-        for start in 0..self.triangles.len() {
-            if piece[start] != u32::MAX {
-                continue;
-            }
-            let number = self.pieces.len() as u32;
-            self.pieces.push(BodyPiece { body: self.triangles[start].body as usize, first: start as u32 });
-            let mut open = vec![start];
-            piece[start] = number;
-            while let Some(triangle) = open.pop() {
-                let beside = self.triangles[triangle].edges.iter().flat_map(|&edge| self.edges[edge as usize].triangles);
-                for other in beside.flatten().map(|other| other as usize) {
-                    if piece[other] == u32::MAX {
-                        piece[other] = number;
-                        open.push(other);
-                    }
-                }
+        // Each triangle leads to one of its piece before it, the first one to itself.
+        let mut before: Vec<u32> = (0..self.triangles.len() as u32).collect();
+        for edge in &self.edges {
+            if let [Some(a), Some(b)] = edge.triangles.map(|beside| beside.map(|triangle| first_of(&mut before, triangle))) {
+                before[a.max(b) as usize] = a.min(b);
             }
         }
-        self.triangles.iter_mut().zip(&piece).for_each(|(triangle, &piece)| triangle.piece = piece);
+        for triangle in 0..self.triangles.len() {
+            let first = first_of(&mut before, triangle as u32) as usize;
+            if first == triangle {
+                self.triangles[triangle].piece = self.pieces.len() as u32;
+                self.pieces.push(BodyPiece { body: self.triangles[triangle].body as usize, first: first as u32 });
+            } else {
+                self.triangles[triangle].piece = self.triangles[first].piece;
+            }
+        }
         self.check_hinges()?;
         self.check_count()
     }
@@ -117,6 +113,16 @@ impl MacroMesh {
         let x = (corners[0] + corners[1] + corners[2]) / 3.0;
         format!("the piece of body {name} around ({:.6}, {:.6}), which shares no edge with the rest of the body,", x.x, x.y)
     }
+}
+
+/// The first triangle that a triangle leads to, by ways that are halved for those who come later.
+fn first_of(before: &mut [u32], mut triangle: u32) -> u32 {
+    while before[triangle as usize] != triangle {
+        let next = before[before[triangle as usize] as usize];
+        before[triangle as usize] = next;
+        triangle = next;
+    }
+    triangle
 }
 
 /// Whether two straight edges have a stretch in common.

@@ -106,15 +106,16 @@ impl Numbering {
         }
     }
 
-    /// Numbers of one macro triangle's nodes.
+    /// Numbers of one macro triangle's nodes. What has no nodes is not looked up: on large macro meshes that is the time it takes.
     pub fn triangle(&self, mesh: &MacroMesh, triangle: usize) -> TriangleNumbers {
-        let macro_triangle = &mesh.triangles[triangle];
+        let (macro_triangle, n) = (&mesh.triangles[triangle], self.level.intervals);
+        let side = |edge: u32| if n > 1 { self.start(self.partition.edges[edge as usize]) } else { 0 };
         TriangleNumbers {
-            n: self.level.intervals,
+            n,
             corners: macro_triangle.vertices.map(|vertex| self.vertex(vertex)),
-            sides: macro_triangle.edges.map(|edge| self.start(self.partition.edges[edge as usize])),
+            sides: macro_triangle.edges.map(side),
             forward: macro_triangle.forward,
-            inside: self.start(self.partition.triangles[triangle]),
+            inside: if n > 2 { self.start(self.partition.triangles[triangle]) } else { 0 },
         }
     }
 }

@@ -1,19 +1,39 @@
-//! What solves on the coarsest level of the mesh: a factor on the one rank that has all of it, or levels of mezha's own below it.
+//! What solves below the lowest level that the cycle sweeps: a factor on the one rank that has all of the coarsest level of the
+//! mesh, or where the macro mesh is large, auxiliary levels.
 
 use super::level::CycleLevel;
+use crate::multigrid::interpolation::Interpolation;
 use crate::multigrid::stiffness::LatticeOperator;
-use crate::petsc::{Error, Factor, Krylov, Matrix, MultigridCycle, MultigridLevel, Result, Session, Vector};
+use crate::petsc::{Error, Factor, Krylov, MultigridCycle, MultigridLevel, Result, Session, Vector};
+use std::rc::Rc;
 
 /// Prefix of the options of the smoothers and of the coarsest solver: that of PETSc's own multigrid, so that the defaults of
 /// `system/solver` hold here, too.
 const PREFIX: &str = "fieldsplit_u_";
 
-/// The solver of the coarsest level of the mesh.
+/// Prefix of the options of the coarsest solver alone.
+const COARSE_PREFIX: &str = "fieldsplit_u_mg_coarse_";
+
+/// The solver below the levels that are swept.
 pub enum Coarsest {
-    /// The level is small: a factor on the rank that has it.
-    Factor(Option<Factor>),
-    /// It is not: a cycle of PETSc's multigrid, on this level and the auxiliary ones below it.
-    Auxiliary { solver: Krylov, b: Vector, x: Vector },
+    /// The coarsest level of the mesh is small: a factor on the rank that has it, and the level's vectors.
+    Factor { factor: Option<Factor>, lattice: Rc<LatticeOperator>, b: Vec<[f64; 2]>, x: Vec<[f64; 2]> },
+    /// It is not: a solver on auxiliary levels below it.
+    Auxiliary(Box<AuxiliarySolver>),
+}
+
+/// A solver on auxiliary levels.
+pub struct AuxiliarySolver {
+    /// A cycle of PETSc's multigrid, or where there is one such level, a factor.
+    solver: Krylov,
+    is_cycle: bool,
+    /// All interpolations, of which this one leads up from the levels here.
+    interpolations: Rc<[Interpolation]>,
+    up: usize,
+    b: Vector,
+    x: Vector,
+    /// On the level above.
+    fine: Vector,
 }
 
 impl Coarsest {
@@ -21,50 +41,100 @@ impl Coarsest {
     ///
     /// # Errors
     /// [`Error::NotConverged`] on every rank if the level is singular.
-    pub fn factor(lattice: &LatticeOperator, session: &Session) -> Result<Self> {
-        assert_eq!(lattice.far_count(), 0, "one rank has all nodes of the coarsest level");
-        let has_nodes = lattice.node_count() > 0;
-        let factor = has_nodes.then(|| Factor::new(session, &lattice.rows().borrow().scalar_rows())).transpose();
-        let is_singular = matches!(factor, Err(Error::NotConverged { .. }));
-        if session.any(is_singular) { Err(Factor::singular()) } else { factor.map(Self::Factor) }
+    pub fn factor(lattice: Rc<LatticeOperator>, session: &Session) -> Result<Self> {
+        let nodes = vec![[0.0; 2]; lattice.node_count()];
+        Ok(Self::Factor { factor: factor(&lattice, session)?, lattice, b: nodes.clone(), x: nodes })
     }
 
-    /// A cycle on auxiliary levels and, as the last one, the coarsest level of the mesh. **Collective**
-    pub fn auxiliary(levels: &[MultigridLevel], session: &Session) -> Result<Self> {
-        let finest: &Matrix = levels[levels.len() - 1].operator;
-        let solver = Krylov::new(session, PREFIX)?;
+    /// A solver on auxiliary levels, the coarsest first; the interpolation behind theirs leads up from them. **Collective**
+    pub fn auxiliary(levels: &[MultigridLevel], interpolations: &Rc<[Interpolation]>, session: &Session) -> Result<Self> {
+        let (finest, is_cycle, up) = (levels[levels.len() - 1].operator, levels.len() > 1, levels.len() - 1);
+        let solver = Krylov::new(session, if is_cycle { PREFIX } else { COARSE_PREFIX })?;
         solver.set_operators(finest, finest)?;
         solver.set_from_options()?;
-        solver.preconditioner().multigrid(MultigridCycle::Full, levels)?;
+        if is_cycle {
+            solver.preconditioner().multigrid(MultigridCycle::Full, levels)?;
+        }
         solver.set_up()?;
-        let (b, x) = finest.create_vectors()?;
-        Ok(Self::Auxiliary { solver, b, x })
+        let (x, fine) = interpolations[up].matrix.create_vectors()?;
+        let (b, interpolations) = (finest.create_vectors()?.0, interpolations.clone());
+        Ok(Self::Auxiliary(Box::new(AuxiliarySolver { solver, is_cycle, interpolations, up, b, x, fine })))
     }
 
     /// Takes over changed values. **Collective**
-    pub fn refresh(&mut self, lattice: &LatticeOperator, session: &Session) -> Result<()> {
+    pub fn refresh(&mut self, session: &Session) -> Result<()> {
         match self {
-            Self::Factor(_) => *self = Self::factor(lattice, session)?,
-            Self::Auxiliary { solver, .. } => solver.preconditioner().set_up()?,
+            Self::Factor { factor: known, lattice, .. } => *known = factor(lattice, session)?,
+            Self::Auxiliary(auxiliary) => auxiliary.solver.preconditioner().set_up()?,
         }
         Ok(())
     }
 
-    /// Solves with the right-hand side of a level, on auxiliary levels by one such cycle. **Collective**
-    pub fn solve(&mut self, cycle: MultigridCycle, level: &mut CycleLevel) -> Result<()> {
-        let (from, to) = (level.b.as_flattened(), level.x.as_flattened_mut());
-        let set = |b: &mut [f64]| b.copy_from_slice(from);
-        let mut get = |x: &[f64]| to.copy_from_slice(x);
+    /// Takes forces from the level above. **Collective**
+    pub fn restrict(&mut self, level: &mut CycleLevel, fine: &[[f64; 2]]) -> Result<()> {
         match self {
-            Self::Factor(None) => Ok(()),
-            Self::Factor(Some(factor)) => factor.solve(set, get),
-            Self::Auxiliary { solver, b, x } => {
-                set(&mut b.values_mut());
-                solver.preconditioner().set_cycle(cycle)?;
-                solver.apply(b, x)?;
-                get(&x.values());
-                Ok(())
+            Self::Factor { b, .. } => level.restrict(fine, b),
+            Self::Auxiliary(auxiliary) => auxiliary.restrict(|forces| forces.copy_from_slice(fine.as_flattened()))?,
+        }
+        Ok(())
+    }
+
+    /// Takes the residual from the level above, behind a sweep of these `b` and `x`; `r` has room for it. **Collective**
+    pub fn restrict_residual(&mut self, level: &mut CycleLevel, of: [&[[f64; 2]]; 2], r: &mut [[f64; 2]]) -> Result<()> {
+        match self {
+            Self::Factor { b, .. } => level.restrict_residual(of[0], of[1], r, b),
+            Self::Auxiliary(auxiliary) => {
+                auxiliary.restrict(|forces| level.residual(of[0], of[1], forces.as_chunks_mut().0))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Hands what was found to the level above: from there on, or added. **Collective**
+    pub fn prolong<const ADD: bool>(&mut self, level: &mut CycleLevel, fine: &mut [[f64; 2]]) -> Result<()> {
+        match self {
+            Self::Factor { x, .. } if ADD => level.correct(x, fine),
+            Self::Factor { x, .. } => level.begin(x, fine),
+            Self::Auxiliary(auxiliary) => {
+                let AuxiliarySolver { interpolations, up, x, fine: values, .. } = &mut **auxiliary;
+                interpolations[*up].matrix.multiply(x, values)?;
+                let add = |(to, value): (&mut f64, &f64)| *to = value + if ADD { *to } else { 0.0 };
+                fine.as_flattened_mut().iter_mut().zip(&*values.values()).for_each(add);
+            }
+        }
+        Ok(())
+    }
+
+    /// Solves, on auxiliary levels by one such cycle. **Collective**
+    pub fn solve(&mut self, cycle: MultigridCycle) -> Result<()> {
+        match self {
+            Self::Factor { factor: None, .. } => Ok(()),
+            Self::Factor { factor: Some(factor), b, x, .. } => factor
+                .solve(|forces| forces.copy_from_slice(b.as_flattened()), |found| x.as_flattened_mut().copy_from_slice(found)),
+            Self::Auxiliary(auxiliary) => {
+                let AuxiliarySolver { solver, is_cycle, b, x, .. } = &mut **auxiliary;
+                if *is_cycle {
+                    solver.preconditioner().set_cycle(cycle)?;
+                }
+                solver.apply(b, x)
             }
         }
     }
+}
+
+impl AuxiliarySolver {
+    /// Takes what `bring` puts on the level above. **Collective**
+    fn restrict(&mut self, bring: impl FnOnce(&mut [f64])) -> Result<()> {
+        bring(&mut self.fine.values_mut());
+        self.interpolations[self.up].matrix.multiply_transpose(&self.fine, &mut self.b)
+    }
+}
+
+/// **Collective**
+fn factor(lattice: &LatticeOperator, session: &Session) -> Result<Option<Factor>> {
+    assert_eq!(lattice.far_count(), 0, "one rank has all nodes of the coarsest level");
+    let has_nodes = lattice.node_count() > 0;
+    let factor = has_nodes.then(|| Factor::new(session, &lattice.rows().borrow().scalar_rows())).transpose();
+    let is_singular = matches!(factor, Err(Error::NotConverged { .. }));
+    if session.any(is_singular) { Err(Factor::singular()) } else { factor }
 }

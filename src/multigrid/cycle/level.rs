@@ -1,7 +1,7 @@
 //! One level of the cycle: its rows, its vectors, and the way to the next coarser level.
 
 use crate::multigrid::interpolation::{InterpolationRoom, NodeInterpolation};
-use crate::multigrid::stiffness::{EarlierCouplings, LatticeOperator, SweepHalves};
+use crate::multigrid::stiffness::{EarlierCouplings, LatticeOperator, SweepHalves, SweepRows};
 use crate::petsc::{Halo, Session};
 use std::rc::Rc;
 
@@ -13,12 +13,14 @@ pub struct CycleLevel {
     halo: Option<Rc<Halo>>,
     /// Interpolation from the next coarser level.
     step: Option<Rc<NodeInterpolation>>,
+    /// Its rows as sweeps read them, where all are stored.
+    sweep_rows: Option<SweepRows>,
     /// Whether residuals inside of even macro triangles are restricted where they are made.
     is_fused: bool,
     /// Right-hand side and solution, but for the finest level, which works on those that it is given.
     pub b: Vec<[f64; 2]>,
     pub x: Vec<[f64; 2]>,
-    /// For sweeps from zero; only levels between the coarsest and the finest have them.
+    /// For sweeps from zero; levels below the finest have them.
     earlier: Option<EarlierCouplings>,
     far: Vec<[f64; 2]>,
     room: InterpolationRoom,
@@ -30,40 +32,70 @@ impl CycleLevel {
     /// With the interpolation from the next coarser level, if there is one.
     pub fn new(lattice: Rc<LatticeOperator>, step: Option<Rc<NodeInterpolation>>, session: &Session) -> Self {
         let halo = (session.size() > 1).then(|| lattice.halo().clone());
+        let sweep_rows = lattice.sweep_rows();
         let is_of_rows = |step: &Rc<NodeInterpolation>| step.is_of(lattice.even().triangles.iter().map(|of| of.inner.clone()));
-        let is_fused = step.as_ref().is_some_and(is_of_rows);
+        let is_fused = sweep_rows.is_none() && step.as_ref().is_some_and(is_of_rows);
         let (nodes, far) = (lattice.node_count(), vec![[0.0; 2]; lattice.far_count()]);
         let (b, x, room) = (Vec::new(), Vec::new(), InterpolationRoom::default());
-        Self { lattice, halo, step, is_fused, b, x, earlier: None, far, room, nodes }
+        Self { lattice, halo, step, sweep_rows, is_fused, b, x, earlier: None, far, room, nodes }
     }
 
     /// Makes what levels below the finest have beside it: vectors, and what sweeps from zero need.
     pub fn with_vectors(mut self) -> Self {
         self.b = vec![[0.0; 2]; self.nodes];
         self.x = self.b.clone();
-        let (rows, order) = (self.lattice.rows().borrow(), self.lattice.order());
-        let earlier = |_: &Rc<NodeInterpolation>| EarlierCouplings::new(&rows, self.lattice.strips(), order, self.nodes);
-        self.earlier = self.step.as_ref().map(earlier);
-        drop(rows);
+        if self.sweep_rows.is_none() {
+            let (rows, order) = (self.lattice.rows().borrow(), self.lattice.order());
+            self.earlier = Some(EarlierCouplings::new(&rows, self.lattice.strips(), order, self.nodes));
+        }
         self
     }
 
-    /// Restricts the residual `b - K x` to the next coarser level; `r` has room for it. **Collective**
+    /// Takes over the values of the rows, some of which have changed.
+    pub fn refresh(&mut self) {
+        let changed = self.lattice.changed_rows();
+        if let Some(rows) = &mut self.sweep_rows {
+            rows.refresh(&self.lattice.rows().borrow(), changed.into_iter().map(|k| k as usize));
+        }
+    }
+
+    /// The residual `b - K x` behind a sweep of these `b` and `x`. **Collective**
+    pub fn residual(&mut self, b: &[[f64; 2]], x: &[[f64; 2]], r: &mut [[f64; 2]]) {
+        let Self { lattice, halo, far, sweep_rows, .. } = self;
+        let stored = lattice.rows().borrow();
+        let rows = lattice.lattice_rows(&stored);
+        let inside = |r: &mut [[f64; 2]]| {
+            if sweep_rows.is_none() {
+                rows.residual_inside(true, b, x, r)
+            }
+        };
+        match halo {
+            Some(halo) => halo.fetch(x, far, || inside(r)),
+            None => inside(r),
+        }
+        match sweep_rows {
+            Some(sweep_rows) => sweep_rows.residual(&stored, b, x, far, r),
+            None => rows.residual_in_others(b, x, far, r),
+        }
+    }
+
+    /// Restricts the residual `b - K x` behind a sweep of these `b` and `x` to the next coarser level; `r` has room for it.
+    /// **Collective**
     pub fn restrict_residual(&mut self, b: &[[f64; 2]], x: &[[f64; 2]], r: &mut [[f64; 2]], below: &mut [[f64; 2]]) {
-        let Self { lattice, halo, far, nodes, step, is_fused, room, .. } = self;
-        let (r, step, stored) = (&mut r[..*nodes], step.as_ref().expect("a way down"), lattice.rows().borrow());
+        let r = &mut r[..self.nodes];
+        if !self.is_fused {
+            self.residual(b, x, r);
+            return self.restrict(r, below);
+        }
+        let Self { lattice, halo, far, step, room, .. } = self;
+        let (step, stored) = (step.as_ref().expect("a way down"), lattice.rows().borrow());
         let (even, rows) = (lattice.even(), lattice.lattice_rows(&stored));
         match halo {
-            Some(halo) => halo.fetch(x, far, || rows.residual_inside(!*is_fused, b, x, r)),
-            None => rows.residual_inside(!*is_fused, b, x, r),
+            Some(halo) => halo.fetch(x, far, || rows.residual_inside(false, b, x, r)),
+            None => rows.residual_inside(false, b, x, r),
         }
-        if *is_fused {
-            stored.residual(0..stored.nodes().len(), b, x, far, r);
-            step.restrict_from(even.groups(), |k, own| even.residual_of(k, b, x, far, own), r, below, room);
-        } else {
-            rows.residual_in_others(b, x, far, r);
-            step.restrict(r, below, room);
-        }
+        stored.residual(0..stored.nodes().len(), b, x, far, r);
+        step.restrict_from(even.groups(), |k, own| even.residual_of(k, b, x, far, own), r, below, room);
     }
 
     /// Restricts forces to the next coarser level. **Collective**
@@ -81,10 +113,17 @@ impl CycleLevel {
         self.step.as_ref().expect("a way up").prolong::<true>(below, x, &mut self.room);
     }
 
-    /// A Gauss-Seidel sweep over the nodes here; those of other ranks stay as they are. **Collective**
+    /// A Gauss-Seidel sweep over the nodes here, symmetric where all rows are stored; those of other ranks stay as they are.
+    /// **Collective**
     pub fn relax(&mut self, sweep: SweepHalves, b: &[[f64; 2]], x: &mut [[f64; 2]]) {
-        let Self { lattice, halo, far, .. } = self;
+        let Self { lattice, halo, far, sweep_rows, .. } = self;
         let stored = lattice.rows().borrow();
+        if let Some(rows) = sweep_rows {
+            if let Some(halo) = halo {
+                halo.fetch(x, far, || ());
+            }
+            return rows.relax(&stored, b, x, far);
+        }
         let rows = lattice.lattice_rows(&stored);
         match halo {
             Some(halo) => halo.fetch_before(x, far, |x| rows.begin_to_relax(b, x)),
@@ -96,10 +135,13 @@ impl CycleLevel {
     /// The forward half of a sweep from zero, whatever `x` holds.
     ///
     /// # Panics
-    /// On the coarsest level and on the finest.
+    /// On the finest level, if not all of its rows are stored.
     pub fn relax_from_zero(&mut self, b: &[[f64; 2]], x: &mut [[f64; 2]]) {
+        if let Some(rows) = &mut self.sweep_rows {
+            return rows.relax_from_zero(&self.lattice.rows().borrow(), b, x);
+        }
         let stored = self.lattice.rows().borrow();
         let rows = self.lattice.lattice_rows(&stored);
-        rows.relax_from_zero(self.earlier.as_ref().expect("a level between the coarsest and the finest"), b, x);
+        rows.relax_from_zero(self.earlier.as_ref().expect("a level below the finest"), b, x);
     }
 }

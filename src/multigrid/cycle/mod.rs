@@ -22,66 +22,71 @@ use std::rc::Rc;
 
 /// Full multigrid: on each level, from the coarsest one up, a V-cycle with one Gauss-Seidel sweep before and one after the coarse
 /// correction, from what the coarser level has found. Sweeps are symmetric; before the coarse corrections of levels below the
-/// finest one they go forward alone, which saves a quarter of the sweeps there and costs one iteration in a hundred.
+/// finest one they go forward alone where not all rows are stored, or from zero: that saves a quarter of the sweeps there and costs
+/// one iteration in a hundred.
 pub struct FullCycle {
     coarsest: Coarsest,
-    /// The coarsest first; that one has no sweeps.
+    /// Those that are swept, the coarsest first.
     levels: Vec<CycleLevel>,
     /// A residual, of one level at a time.
     r: Vec<[f64; 2]>,
 }
 
 impl FullCycle {
-    /// On the levels of a stiffness; `levels` are those of PETSc's multigrid, with auxiliary ones below these. `None` if the mesh
-    /// has one level, if options want entries of interpolations, or if the coarsest level is large and has no auxiliary ones.
+    /// On the levels of a stiffness; `levels` are those of PETSc's multigrid, with auxiliary ones below these. `None` if there is
+    /// nothing to sweep, if options want entries of interpolations, or if the coarsest level is large and has no auxiliary ones.
     /// **Collective**
     fn new(
         stiffness: &[Stiffness],
-        interpolations: &[Interpolation],
+        interpolations: &Rc<[Interpolation]>,
         levels: &[MultigridLevel],
         session: &Session,
     ) -> std::result::Result<Option<Self>, SystemError> {
         let rows: Vec<_> = stiffness.iter().map(|stiffness| stiffness.lattice().clone()).collect();
-        let (below, above) = interpolations.split_at(interpolations.len() + 1 - rows.len());
-        let steps: Option<Vec<Rc<NodeInterpolation>>> = above.iter().map(|step| step.nodes.clone()).collect();
-        let Some(steps) = steps.filter(|steps| !steps.is_empty()) else { return Ok(None) };
-        // So many bodies that no auxiliary level is smaller: PETSc's multigrid has a factor that all ranks make together.
-        if below.is_empty() && above[0].matrix.size().1 > SMALL {
-            return Ok(None);
-        }
-        let coarsest = if below.is_empty() {
-            Coarsest::factor(&rows[0], session)?
-        } else {
-            Coarsest::auxiliary(&levels[..=below.len()], session)?
-        };
+        let below = interpolations.len() + 1 - rows.len();
+        let steps: Option<Vec<Rc<NodeInterpolation>>> = interpolations[below..].iter().map(|step| step.nodes.clone()).collect();
+        let Some(steps) = steps.filter(|_| !interpolations.is_empty()) else { return Ok(None) };
         let steps = std::iter::once(None).chain(steps.into_iter().map(Some));
-        let levels = rows.into_iter().zip(steps).map(|(rows, step)| CycleLevel::new(rows, step, session));
-        let mut levels: Vec<CycleLevel> = levels.collect();
-        let last = levels.pop().expect("two levels at least");
-        let mut levels: Vec<CycleLevel> = levels.into_iter().map(CycleLevel::with_vectors).collect();
-        let most = levels.iter().map(|level| level.b.len()).chain([last.nodes]).max();
+        let mut levels_of_rows = rows.into_iter().zip(steps);
+        let coarsest = if below > 0 {
+            Coarsest::auxiliary(&levels[..below], interpolations, session)?
+        } else if interpolations[0].matrix.size().1 > SMALL {
+            // So many bodies that no auxiliary level is smaller: PETSc's multigrid has a factor that all ranks make together.
+            return Ok(None);
+        } else {
+            let (lattice, _) = levels_of_rows.next().expect("a coarsest level");
+            Coarsest::factor(lattice, session)?
+        };
+        let mut levels: Vec<CycleLevel> = levels_of_rows.map(|(rows, step)| CycleLevel::new(rows, step, session)).collect();
+        let most = levels.iter().map(|level| level.nodes).max();
+        let last = levels.pop().expect("a level that is swept");
+        levels = levels.into_iter().map(CycleLevel::with_vectors).collect();
         levels.push(last);
-        let r = vec![[0.0; 2]; most.unwrap_or(0)];
-        Ok(Some(Self { coarsest, levels, r }))
+        Ok(Some(Self { coarsest, levels, r: vec![[0.0; 2]; most.unwrap_or(0)] }))
     }
 
     /// Takes over the values of the stiffness, which have changed. **Collective**
     fn refresh(&mut self, session: &Session) -> std::result::Result<(), SystemError> {
-        Ok(self.coarsest.refresh(&self.levels[0].lattice, session)?)
+        self.levels.iter_mut().for_each(CycleLevel::refresh);
+        Ok(self.coarsest.refresh(session)?)
     }
 
     /// `x = M⁻¹ b` for the nodes of this rank. **Collective**
     fn apply(&mut self, b: &[[f64; 2]], x: &mut [[f64; 2]]) -> Result<()> {
         let Self { coarsest, levels, r } = self;
         let top = levels.len() - 1;
-        for l in (1..=top).rev() {
+        for l in (0..=top).rev() {
             let (below, level) = levels.split_at_mut(l);
             let own = take(&mut level[0].b);
-            level[0].restrict(if l == top { b } else { &own }, &mut below[l - 1].b);
+            let forces = if l == top { b } else { &own };
+            match below.last_mut() {
+                Some(below) => level[0].restrict(forces, &mut below.b),
+                None => coarsest.restrict(&mut level[0], forces)?,
+            }
             level[0].b = own;
         }
-        coarsest.solve(MultigridCycle::Full, &mut levels[0])?;
-        for l in 1..top {
+        coarsest.solve(MultigridCycle::Full)?;
+        for l in 0..top {
             let (b, mut x) = (take(&mut levels[l].b), take(&mut levels[l].x));
             begin(&mut levels[..=l], coarsest, SweepHalves::Forward, &b, &mut x, r)?;
             (levels[l].b, levels[l].x) = (b, x);
@@ -100,7 +105,10 @@ fn begin(
     r: &mut [[f64; 2]],
 ) -> Result<()> {
     let (level, below) = levels.split_last_mut().expect("a level");
-    level.begin(&below[below.len() - 1].x, x);
+    match below.last() {
+        Some(below) => level.begin(&below.x, x),
+        None => coarsest.prolong::<false>(level, x)?,
+    }
     level.relax(before, b, x);
     correct(levels, coarsest, b, x, r)
 }
@@ -114,17 +122,19 @@ fn correct(
     r: &mut [[f64; 2]],
 ) -> Result<()> {
     let (level, below) = levels.split_last_mut().expect("a level");
-    let last = below.len() - 1;
-    level.restrict_residual(b, x, r, &mut below[last].b);
-    if last == 0 {
-        coarsest.solve(MultigridCycle::V, &mut below[0])?;
+    if below.is_empty() {
+        coarsest.restrict_residual(level, [b, x], r)?;
+        coarsest.solve(MultigridCycle::V)?;
+        coarsest.prolong::<true>(level, x)?;
     } else {
+        let last = below.len() - 1;
+        level.restrict_residual(b, x, r, &mut below[last].b);
         let (next, mut correction) = (take(&mut below[last].b), take(&mut below[last].x));
         below[last].relax_from_zero(&next, &mut correction);
         correct(below, coarsest, &next, &mut correction, r)?;
         (below[last].b, below[last].x) = (next, correction);
+        level.correct(&below[last].x, x);
     }
-    level.correct(&below[last].x, x);
     level.relax(SweepHalves::Both, b, x);
     Ok(())
 }
@@ -137,7 +147,7 @@ impl Cycle {
     /// On the levels of a system; `None` where there is no `FullCycle`. **Collective**
     pub fn new(
         stiffness: &[Stiffness],
-        interpolations: &[Interpolation],
+        interpolations: &Rc<[Interpolation]>,
         levels: &[MultigridLevel],
         session: &Session,
     ) -> std::result::Result<Option<Self>, SystemError> {

@@ -9,6 +9,7 @@ use super::strip_kernel::SweepHalves;
 use super::strip_set::Strips;
 use super::strips::Couplings;
 use super::sweep_order::SweepOrder;
+use super::sweep_rows::SweepRows;
 use crate::discretisation::Components;
 use crate::element::Block;
 use crate::petsc::{Halo, Operator, Result, Session, Vector};
@@ -23,6 +24,8 @@ pub struct LatticeOperator {
     pub(crate) strips: Rc<Strips>,
     pub(crate) even: Rc<EvenTriangles>,
     pub(crate) rows: Rc<RefCell<StoredRows>>,
+    /// Stored rows that have been added to since somebody asked, each perhaps several times.
+    changed: RefCell<Vec<u32>>,
     /// Columns of other ranks, ascending.
     pub(crate) far: Vec<usize>,
     /// Couplings of all nodes in strips and in even macro triangles.
@@ -53,7 +56,8 @@ impl LatticeOperator {
         let in_strips = strips.alike.iter().map(couplings).chain(in_even).sum();
         let (order, halo) = (SweepOrder::new(&rows, strips), Rc::new(Halo::new(session, own, &far)));
         let rows = Rc::new(RefCell::new(rows));
-        Ok(Self { own: own.clone(), strips: strips.clone(), even: even.clone(), rows, far, in_strips, halo, order })
+        let changed = RefCell::default();
+        Ok(Self { own: own.clone(), strips: strips.clone(), even: even.clone(), rows, changed, far, in_strips, halo, order })
     }
 
     /// A copy with places for the couplings of a contact boundary; the strips are the same. **Collective**
@@ -84,6 +88,21 @@ impl LatticeOperator {
         if let Some(diagonal) = places.diagonal {
             rows.invert(places.stored as usize, diagonal);
         }
+        self.changed.borrow_mut().push(places.stored);
+    }
+
+    /// The stored rows that have been added to since this was asked last, ascending.
+    pub fn changed_rows(&self) -> Vec<u32> {
+        let mut changed = self.changed.take();
+        changed.sort_unstable();
+        changed.dedup();
+        changed
+    }
+
+    /// The rows as sweeps read them, if all of this rank's are stored.
+    pub fn sweep_rows(&self) -> Option<SweepRows> {
+        let rows = self.rows.borrow();
+        (rows.nodes.len() == self.own.len()).then(|| SweepRows::new(&rows))
     }
 
     /// In which order rows are worked on.

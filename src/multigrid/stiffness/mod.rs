@@ -42,8 +42,10 @@
 //! x_(k-1), which is summed up by doubling steps, so that only registers wait for each other. The instructions (AVX-512, AVX2
 //! with multiply-add, or none) are asked for at run time by `pulp`, so that no code of ours is `unsafe`. The nodes on sides of
 //! macro triangles come first, those that need no node of another rank before the others: meanwhile the values of other ranks
-//! arrive. Then each macro triangle goes forward and backward while it is in the cache, as no macro triangle couples to
-//! another; then the sides again.
+//! arrive. A level with all of its rows stored, as a fine mesh of Gmsh's has, is swept in the order of its nodes, by copies of its
+//! couplings in single precision, of which sweeps and residuals read no more than they need (`sweep_rows.rs`). On other levels
+//! each macro triangle then goes forward and backward while it is in the cache, as no macro triangle couples to another; then the
+//! sides again.
 //!
 //! The cycle (`multigrid/cycle`) works on these rows directly. It is PETSc's preconditioner of field `u` as a shell, so that the
 //! MatNest, fieldsplit and the Krylov method around it are PETSc's. Fieldsplit copies the parts of its vectors some ten times;
@@ -52,16 +54,15 @@
 //! installs), while its kind, parts and set-up stay. Levels of up to 3000 unknowns are on one rank, larger ones on one of every
 //! 2, 4, 8, … ranks, so that each of these has about a thousand unknowns or more (`discretisation/level_ranks.rs`); the finest stays on all.
 //! From the first level on one rank downwards nothing is sent, and that rank solves the coarsest with a factor. Where the macro
-//! mesh is larger, a cycle of PETSc's multigrid on it and the auxiliary levels stands in the place of the factor
+//! mesh is larger, it is swept, too, and a cycle of PETSc's multigrid on the auxiliary levels below it stands in the place of the factor
 //! (`cycle/coarsest.rs`). All messages go from neighbour to neighbour, and are under way while strips, or the first sides of a
 //! sweep, are worked on. The product of the saddle point is a shell, too (`nest_product`): PETSc's nest finds the parts of its
 //! vectors by a sum over all ranks, four in each product. So an iteration of GMRES has two sums over all ranks for its inner
 //! products (one of BiCGStab four, for two cycles), and no other collective; `tests/messages.rs` counts them.
 //!
 //! Any option of the user's that begins with `-fieldsplit_u_` brings PETSc's own multigrid back, on the same levels, as do
-//! stronger smoothers that a slow solve falls back on, and a mesh of one level (P1, `refine = 0`), below which all levels are
-//! auxiliary. Then PETSc sees a level as a shell (`petsc::Operator`): product, residual, one symmetric Gauss-Seidel sweep,
-//! diagonal, norm. Where options of the user's may want more, as another smoother, omega, or `-fieldsplit_u_pc_type hypre`, and
+//! stronger smoothers that a slow solve falls back on. Then PETSc sees a level as a shell (`petsc::Operator`): product, residual,
+//! one symmetric Gauss-Seidel sweep, diagonal, norm. Where options of the user's may want more, as another smoother, omega, or `-fieldsplit_u_pc_type hypre`, and
 //! on the coarsest level, it sees a matrix with all rows, made from the same storage and changed along with it. Where a
 //! factorisation wants one (the last rung of the ladder of solvers, the inf-sup constant), it is made first. Contact changes stored
 //! rows alone: nodes of Γ_C lie on sides of macro triangles.
@@ -90,6 +91,7 @@ mod strip_kernel;
 mod strip_set;
 mod strips;
 mod sweep_order;
+mod sweep_rows;
 mod triangle_kernel;
 
 pub use earlier_couplings::EarlierCouplings;
@@ -97,6 +99,7 @@ pub use elastic::Elastic;
 pub use lattice_operator::LatticeOperator;
 pub use stored_rows::BlockPlace;
 pub use strip_kernel::SweepHalves;
+pub use sweep_rows::SweepRows;
 
 use crate::discretisation::SystemError;
 use crate::element::Block;

@@ -10,7 +10,7 @@ pub struct RowColumns {
     starts: Vec<usize>,
     /// Where the next column of each row goes.
     ends: Vec<usize>,
-    columns: Vec<usize>,
+    columns: Vec<u32>,
 }
 
 impl RowColumns {
@@ -31,7 +31,7 @@ impl RowColumns {
     /// If there is no room in the last row.
     #[inline]
     pub fn push(&mut self, k: usize, column: usize) {
-        self.columns[self.ends[k]] = column;
+        self.columns[self.ends[k]] = column as u32;
         self.ends[k] += 1;
     }
 
@@ -58,7 +58,9 @@ impl RowColumns {
                 }
             }
             self.ends[k] = at;
-            far.extend(self.columns[self.starts[k]..at].iter().filter(|column| !own.contains(column)));
+            far.extend(
+                self.columns[self.starts[k]..at].iter().map(|&column| column as usize).filter(|column| !own.contains(column)),
+            );
         }
         far.sort_unstable();
         far.dedup();
@@ -75,11 +77,11 @@ impl RowColumns {
     /// The columns that `place` has a place for, in their order, with zeros.
     fn part(&self, place: impl Fn(usize) -> Option<u32>) -> Part {
         let count = self.starts.iter().zip(&self.ends).flat_map(|(&start, &end)| &self.columns[start..end]);
-        let count = count.filter(|column| place(**column).is_some()).count();
+        let count = count.filter(|column| place(**column as usize).is_some()).count();
         let (mut starts, mut columns) = (Vec::with_capacity(self.starts.len() + 1), Vec::with_capacity(count));
         starts.push(0);
         for (&start, &end) in self.starts.iter().zip(&self.ends) {
-            columns.extend(self.columns[start..end].iter().filter_map(|&column| place(column)));
+            columns.extend(self.columns[start..end].iter().filter_map(|&column| place(column as usize)));
             starts.push(columns.len() as u32);
         }
         let firsts = starts[..starts.len() - 1].to_vec();

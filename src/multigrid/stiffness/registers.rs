@@ -3,21 +3,21 @@
 #[cfg(target_arch = "x86_64")]
 use super::lanes::{Avx2Lanes, Avx512Lanes};
 use super::lanes::{LaneWork, Lanes, PlainLanes};
-use super::row_kernel::OnRows;
+use super::row_kernel::RowWork;
 use super::strip_kernel::{StripKernel, kernel};
 use super::strips::Couplings;
 use super::triangle_kernel::{TriangleKernel, triangle_kernel};
 
 /// Work on stored rows with some registers.
-struct RowsWith<'a, L: Lanes>(L, OnRows<'a>);
+struct RowsWith<L: Lanes, W: RowWork>(L, W);
 
-impl<L: Lanes<Nodes = [[f64; 2]; 2]>> RowsWith<'_, L> {
+impl<L: Lanes<Nodes = [[f64; 2]; 2]>, W: RowWork> RowsWith<L, W> {
     fn run(self) {
         self.0.run(self);
     }
 }
 
-impl<L: Lanes<Nodes = [[f64; 2]; 2]>> LaneWork for RowsWith<'_, L> {
+impl<L: Lanes<Nodes = [[f64; 2]; 2]>, W: RowWork> LaneWork for RowsWith<L, W> {
     #[inline(always)]
     fn work(self) {
         self.1.work(self.0);
@@ -62,7 +62,7 @@ pub fn triangles_kernel(couplings: &[&[Couplings]]) -> Box<dyn TriangleKernel> {
 }
 
 /// Does work on stored rows.
-pub fn on_rows(work: OnRows) {
+pub fn on_rows(work: impl RowWork) {
     #[cfg(target_arch = "x86_64")]
     if let Some(simd) = pulp::x86::V3::try_new() {
         return RowsWith(Avx2Lanes(simd), work).run();

@@ -23,10 +23,15 @@ pub struct OnRows<'a> {
     pub task: RowTask<'a>,
 }
 
-impl OnRows<'_> {
+/// Work on rows, one node after the other.
+pub trait RowWork {
     /// Does it.
+    fn work<L: Lanes<Nodes = [[f64; 2]; 2]>>(self, lanes: L);
+}
+
+impl RowWork for OnRows<'_> {
     #[inline(always)]
-    pub fn work<L: Lanes<Nodes = [[f64; 2]; 2]>>(self, lanes: L) {
+    fn work<L: Lanes<Nodes = [[f64; 2]; 2]>>(self, lanes: L) {
         let Self { rows, range, far, task } = self;
         match task {
             RowTask::Multiply { y, x } => {

@@ -97,6 +97,19 @@ impl<'a> Cursor<'a> {
         Ok(())
     }
 
+    /// The whole numbers at the beginning of the next line. A line of them alone is read digit by digit, which takes a third of
+    /// the time.
+    pub fn line_into_whole(&mut self, section: &str, values: &mut [i64]) -> Result<(), MeshError> {
+        match digits(&self.bytes[self.at..], values) {
+            Some(length) => {
+                self.at += length;
+                self.line += 1;
+                Ok(())
+            }
+            None => self.line_into(section, values),
+        }
+    }
+
     fn numbers_missing(&self, section: &str, least: usize, line: &[u8]) -> MeshError {
         let line = String::from_utf8_lossy(line);
         self.error(format!("in ${section}, expected {least} numbers, found `{}`", Quote(&line)))
@@ -171,6 +184,57 @@ impl<'a> Cursor<'a> {
             if line == end || !self.is_text() && line.ends_with(&end) {
                 return Ok(());
             }
+        }
+    }
+}
+
+/// Reads a line of so many whole numbers, without signs and parted by single spaces, and gives its length; `None` for any other.
+fn digits(bytes: &[u8], values: &mut [i64]) -> Option<usize> {
+    const MOST_DIGITS: usize = 18;
+    let mut at = 0;
+    let count = values.len();
+    for (k, value) in values.iter_mut().enumerate() {
+        let start = at;
+        *value = 0;
+        while let Some(digit) = bytes.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
+            *value = value.wrapping_mul(10).wrapping_add(digit.into());
+            at += 1;
+        }
+        if at == start || at - start > MOST_DIGITS {
+            return None;
+        }
+        at += usize::from(k + 1 < count && *bytes.get(at)? == b' ');
+    }
+    // Gmsh leaves a space at the end of the lines of elements.
+    at += usize::from(*bytes.get(at)? == b' ');
+    (*bytes.get(at)? == b'\n').then_some(at + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_digits_are_read_and_others_left() {
+        let read = |line: &str| {
+            let mut values = [7; 3];
+            digits(line.as_bytes(), &mut values).map(|length| (length, values))
+        };
+        assert_eq!(read("1 20 300 \n4"), Some((10, [1, 20, 300])));
+        assert_eq!(read("0 0 999999999999999999\n"), Some((23, [0, 0, 999_999_999_999_999_999])));
+        for other in [
+            "1 2\n",
+            "1 2 3 4\n",
+            "1 -2 3\n",
+            "1  2 3\n",
+            " 1 2 3\n",
+            "1 2 3",
+            "1 2 3.0\n",
+            "1 2 9999999999999999999\n",
+            "",
+            "123\n",
+        ] {
+            assert_eq!(read(other), None, "{other:?}");
         }
     }
 }

@@ -58,6 +58,8 @@ fn refused(number: i64) -> String {
 pub(super) struct Elements {
     /// Tags of the nodes and their vertices, ascending from [`Elements::end_nodes`] on.
     nodes: Vec<(i64, u32)>,
+    /// Whether the tags are those of the first node and the next ones, in the order of the vertices: in most files.
+    are_consecutive: bool,
     mesh: RawMesh,
     /// The physical group of the last element that had but one, or none, and the number of its names.
     last: Option<(Option<Entity>, u32)>,
@@ -91,14 +93,18 @@ impl Elements {
             kept.1 = if is_same { later.1 } else { kept.1 };
             is_same
         });
+        let first = self.nodes.first().map_or(0, |node| node.0);
+        let is_next = |(&(tag, vertex), at): (&(i64, u32), u32)| tag.checked_sub(first) == Some(at.into()) && vertex == at;
+        self.are_consecutive = self.nodes.iter().zip(0..).all(is_next);
     }
 
-    /// The vertex of a tag. Most files leave no tag out, and its distance from the first one is its place.
+    /// The vertex of a tag.
     fn vertex(&self, tag: i64) -> Option<u32> {
-        let guess = usize::try_from(tag.checked_sub(self.nodes.first()?.0)?).ok()?;
-        let found = self.nodes.get(guess).filter(|node| node.0 == tag);
-        let search = || self.nodes.binary_search_by_key(&tag, |node| node.0).ok().map(|place| &self.nodes[place]);
-        found.or_else(search).map(|node| node.1)
+        if self.are_consecutive {
+            let place = tag.checked_sub(self.nodes.first()?.0)?;
+            return u32::try_from(place).ok().filter(|&place| (place as usize) < self.nodes.len());
+        }
+        self.nodes.binary_search_by_key(&tag, |node| node.0).ok().map(|place| self.nodes[place].1)
     }
 
     /// The number of the names of physical groups that elements have, for [`Elements::add`].

@@ -42,7 +42,7 @@ pub(super) fn read_nodes(cursor: &mut Cursor, elements: &mut Elements) -> Result
         for _ in 0..count {
             let mut tag = [0];
             match cursor.is_text() {
-                true => cursor.line_into(SECTION, &mut tag)?,
+                true => cursor.line_into_whole(SECTION, &mut tag)?,
                 false => tag[0] = cursor.size(SECTION)?,
             }
             tags.extend(tag);
@@ -75,7 +75,7 @@ pub(super) fn read_elements(cursor: &mut Cursor, groups: &Groups, elements: &mut
         let words = &mut words[..=kind.nodes];
         for _ in 0..count {
             if cursor.is_text() {
-                cursor.line_into(SECTION, words)?;
+                cursor.line_into_whole(SECTION, words)?;
             } else {
                 for word in words.iter_mut() {
                     *word = cursor.size(SECTION)?;

@@ -1,0 +1,333 @@
+//! All rows of a level as a sweep reads them: where none of them lies in strips or in even macro triangles.
+//!
+//! A sweep through many rows waits for memory, so their couplings are kept once more, in single precision, and each row is read
+//! in two halves: couplings with nodes that the sweep comes to earlier, and with those later. What a symmetric sweep's forward half
+//! finds of the first half stays: the backward half, and the residual behind it, need the other half alone. Of five times
+//! all blocks that two sweeps and a residual read (36 bytes each, with the column) three and a half are left (20 bytes each).
+//!
+//! What rounding takes from the couplings of a row is given to its diagonal block: so translations keep their forces to the last
+//! digit, and energies are changed by 6e-8 (λ + 2μ)/μ of that of the gradients of a displacement, not of its size.
+
+use super::lanes::Lanes;
+use super::registers::on_rows;
+use super::row_kernel::RowWork;
+use super::stored_rows::{Part, StoredRows};
+use super::strips::inverse;
+use crate::element::Block;
+
+/// Beside the rows of all nodes of a rank, in the order of the nodes, which is that of the sweep: their couplings as it reads them.
+pub struct SweepRows {
+    /// Where the diagonal block of each row lies among its couplings: earlier nodes stand before it.
+    diagonals: Vec<u32>,
+    /// Couplings with nodes of this rank, in the unit, in the places of their columns.
+    blocks: Vec<[f32; 4]>,
+    /// A power of two that brings the largest entry to the middle of the range of single precision.
+    unit: f64,
+    /// Inverses of the diagonal blocks.
+    inverses: Vec<Block>,
+    /// Rows with columns of other ranks.
+    far: Vec<u32>,
+    /// `b` without the couplings with earlier nodes and with those of other ranks, as the last sweep left them.
+    sums: Vec<[f64; 2]>,
+    /// Whether the last sweep went backward, too.
+    is_whole: bool,
+}
+
+impl SweepRows {
+    /// Of rows that are those of all nodes of this rank.
+    pub fn new(rows: &StoredRows) -> Self {
+        let count = rows.nodes.len();
+        // No coupling of a positive definite matrix is larger than both diagonal entries beside it.
+        let diagonals = (0..count).map(|k| rows.diagonal(k));
+        let largest = diagonals.fold(0.0_f64, |largest, block| largest.max(block[0][0]).max(block[1][1]));
+        let place = |k: usize| rows.near.columns[rows.near.row(k)].partition_point(|&column| column < k as u32);
+        let mut sweep = Self {
+            diagonals: (0..count).map(|k| (rows.near.row(k).start + place(k)) as u32).collect(),
+            blocks: vec![[0.0; 4]; rows.near.columns.len()],
+            unit: if largest > 0.0 { largest.log2().floor().exp2() } else { 1.0 },
+            inverses: vec![[[0.0; 2]; 2]; count],
+            far: (0..count as u32).filter(|&k| rows.needs_far(k as usize)).collect(),
+            sums: vec![[0.0; 2]; count],
+            is_whole: false,
+        };
+        sweep.refresh(rows, 0..count);
+        sweep
+    }
+
+    /// Takes over the values of some rows.
+    pub fn refresh(&mut self, rows: &StoredRows, changed: impl Iterator<Item = usize>) {
+        let scale = 1.0 / self.unit;
+        for k in changed {
+            let places = rows.near.row(k);
+            let mut diagonal = [0.0; 4];
+            for (kept, (_, [[a, b], [c, d]])) in self.blocks[places.clone()].iter_mut().zip(rows.near.couplings(k)) {
+                let values = [*a, *b, *c, *d];
+                *kept = values.map(|value| (value * scale) as f32);
+                (0..4).for_each(|at| diagonal[at] += values[at] - f64::from(kept[at]) * self.unit);
+            }
+            // Its own block is not rounded.
+            let own = self.blocks[self.diagonals[k] as usize];
+            let [a, b, c, d] = std::array::from_fn(|at| diagonal[at] + f64::from(own[at]) * self.unit);
+            self.inverses[k] = inverse(&[[a, b], [c, d]]).expect("a stiffness has a diagonal");
+        }
+    }
+
+    /// A symmetric Gauss-Seidel sweep through the rows that these are of; `far` are the values of other ranks.
+    pub fn relax(&mut self, rows: &StoredRows, b: &[[f64; 2]], x: &mut [[f64; 2]], far: &[[f64; 2]]) {
+        self.sums.copy_from_slice(b);
+        for &k in &self.far {
+            self.sums[k as usize] = rows.far.subtract_plainly(k as usize, self.sums[k as usize], far);
+        }
+        let near = &rows.near;
+        on_rows(OnSweepRows { rows: self, near, task: SweepTask::Forward { x } });
+        on_rows(OnSweepRows { rows: self, near, task: SweepTask::Backward { x } });
+        self.is_whole = true;
+    }
+
+    /// The forward half of one from zero, whatever `x` holds.
+    pub fn relax_from_zero(&mut self, rows: &StoredRows, b: &[[f64; 2]], x: &mut [[f64; 2]]) {
+        self.sums.copy_from_slice(b);
+        on_rows(OnSweepRows { rows: self, near: &rows.near, task: SweepTask::FromZero { x } });
+        self.is_whole = false;
+    }
+
+    /// The residual `r = b - K x` behind the last sweep, `b` and `x` being those that it worked on.
+    pub fn residual(&mut self, rows: &StoredRows, b: &[[f64; 2]], x: &[[f64; 2]], far: &[[f64; 2]], r: &mut [[f64; 2]]) {
+        if self.is_whole {
+            r.copy_from_slice(b);
+        } else {
+            r.fill([0.0; 2]);
+        }
+        for &k in &self.far {
+            r[k as usize] = rows.far.subtract_plainly(k as usize, r[k as usize], far);
+        }
+        let task = if self.is_whole { SweepTask::BehindBoth { x, r } } else { SweepTask::BehindForward { x, r } };
+        on_rows(OnSweepRows { rows: self, near: &rows.near, task });
+    }
+
+    /// `sum - Σ K x` over the couplings of row `k` with earlier nodes, or with later ones.
+    #[inline(always)]
+    fn subtract<L: Lanes<Nodes = [[f64; 2]; 2]>, const LATER: bool>(
+        &self,
+        lanes: L,
+        near: &Part,
+        k: usize,
+        sum: [f64; 2],
+        x: &[[f64; 2]],
+    ) -> [f64; 2] {
+        let (all, own) = (near.row(k), self.diagonals[k] as usize);
+        let half = if LATER { own + 1..all.end } else { all.start..own };
+        let (columns, blocks) = (&near.columns[half.clone()], &self.blocks[half]);
+        let block = |[a, b, c, d]: [f32; 4]| lanes.load([[a.into(), b.into()], [c.into(), d.into()]]);
+        let zero = lanes.load([[0.0; 2]; 2]);
+        let (mut one, mut other) = (zero, zero);
+        let (columns, blocks) = (columns.as_chunks::<2>(), blocks.as_chunks::<2>());
+        for (columns, blocks) in columns.0.iter().zip(blocks.0) {
+            let [a, b] = columns.map(|column| lanes.load([x[column as usize]; 2]));
+            one = lanes.multiply_add(block(blocks[0]), a, one);
+            other = lanes.multiply_add(block(blocks[1]), b, other);
+        }
+        if let ([column], [last]) = (columns.1, blocks.1) {
+            one = lanes.multiply_add(block(*last), lanes.load([x[*column as usize]; 2]), one);
+        }
+        let [[a, b], [c, d]] = lanes.store(lanes.add(one, other));
+        [sum[0] - self.unit * (a + b), sum[1] - self.unit * (c + d)]
+    }
+
+    /// The value at which the forces `sum` on a node vanish.
+    #[inline(always)]
+    fn solved(&self, k: usize, sum: [f64; 2]) -> [f64; 2] {
+        self.inverses[k].map(|row| row[0] * sum[0] + row[1] * sum[1])
+    }
+}
+
+/// Work on the rows of a sweep.
+enum SweepTask<'a> {
+    Forward {
+        x: &'a mut [[f64; 2]],
+    },
+    FromZero {
+        x: &'a mut [[f64; 2]],
+    },
+    Backward {
+        x: &'a mut [[f64; 2]],
+    },
+    /// `r` has `b` without the couplings with other ranks.
+    BehindBoth {
+        x: &'a [[f64; 2]],
+        r: &'a mut [[f64; 2]],
+    },
+    /// `r` has what the couplings with other ranks take away.
+    BehindForward {
+        x: &'a [[f64; 2]],
+        r: &'a mut [[f64; 2]],
+    },
+}
+
+/// A task with the rows that it works on, and their columns.
+struct OnSweepRows<'a> {
+    rows: &'a mut SweepRows,
+    near: &'a Part,
+    task: SweepTask<'a>,
+}
+
+impl RowWork for OnSweepRows<'_> {
+    #[inline(always)]
+    fn work<L: Lanes<Nodes = [[f64; 2]; 2]>>(self, lanes: L) {
+        let Self { rows, near, task } = self;
+        let count = rows.sums.len();
+        match task {
+            SweepTask::Forward { x } => {
+                for k in 0..count {
+                    rows.sums[k] = rows.subtract::<L, false>(lanes, near, k, rows.sums[k], x);
+                    x[k] = rows.solved(k, rows.subtract::<L, true>(lanes, near, k, rows.sums[k], x));
+                }
+            }
+            SweepTask::FromZero { x } => {
+                for k in 0..count {
+                    x[k] = rows.solved(k, rows.subtract::<L, false>(lanes, near, k, rows.sums[k], x));
+                }
+            }
+            SweepTask::Backward { x } => {
+                for k in (0..count).rev() {
+                    x[k] = rows.solved(k, rows.subtract::<L, true>(lanes, near, k, rows.sums[k], x));
+                }
+            }
+            SweepTask::BehindBoth { x, r } => {
+                for k in 0..count {
+                    let [first, second] = rows.subtract::<L, false>(lanes, near, k, r[k], x);
+                    r[k] = [first - rows.sums[k][0], second - rows.sums[k][1]];
+                }
+            }
+            SweepTask::BehindForward { x, r } => {
+                for k in 0..count {
+                    r[k] = rows.subtract::<L, true>(lanes, near, k, r[k], x);
+                }
+            }
+        }
+    }
+}
+
+impl Part {
+    /// `sum - Σ K x` of row `k`, which is one of few.
+    fn subtract_plainly(&self, k: usize, sum: [f64; 2], x: &[[f64; 2]]) -> [f64; 2] {
+        self.couplings(k).fold(sum, |sum, (column, block)| {
+            let x = x[column as usize];
+            [0, 1].map(|a| sum[a] - block[a][0] * x[0] - block[a][1] * x[1])
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::assembly::{Assembled, Assembly};
+    use super::*;
+    use crate::contact::MultiplierSpace;
+    use crate::discretisation::samples::{blocks, pair, vector};
+    use crate::discretisation::{Scene, spaces};
+    use crate::element::Order;
+    use crate::geometry::Point;
+    use crate::mesh::Partition;
+    use std::rc::Rc;
+
+    /// Stored rows of all nodes, on one rank and on each of three, and how many nodes of other ranks they need.
+    fn all_rows() -> Vec<(StoredRows, usize)> {
+        let mut found = Vec::new();
+        for (order, ranks) in [(Order::P1, 1), (Order::P2, 1), (Order::P1, 3), (Order::P2, 3)] {
+            let mut scene = Scene { order, refine: 0, ..blocks(pair(MultiplierSpace::P0, 4), |_| Point::zeros(), Vec::new()) };
+            scene.bodies.iter_mut().flat_map(|body| &mut body.parts).for_each(|part| part.material.poisson = 0.4);
+            let owners: Vec<i32> = (0..scene.mesh.triangles.len()).map(|triangle| (triangle % ranks) as i32).collect();
+            scene.partition = Rc::new(Partition::new(&scene.mesh, &owners, ranks));
+            for rank in 0..ranks {
+                let space = spaces(&scene, rank).expect("a small mesh").pop().expect("a finest level");
+                let assembly = Assembly::new(&scene, &space, true, rank);
+                let Assembled { rows, far, .. } = assembly.assemble(&Default::default(), |_, _| ()).expect("good triangles");
+                assert_eq!(rows.nodes.len(), space.own.len());
+                found.push((rows, far.len()));
+            }
+        }
+        found
+    }
+
+    fn largest(values: &[[f64; 2]]) -> f64 {
+        values.as_flattened().iter().fold(0.0, |largest, value| largest.max(value.abs()))
+    }
+
+    /// To single precision.
+    fn check(found: &[[f64; 2]], exact: &[[f64; 2]], size: f64) {
+        let differences = found.as_flattened().iter().zip(exact.as_flattened()).map(|(a, b)| (a - b).abs());
+        let most = differences.fold(0.0, f64::max);
+        assert!(most <= 1e-5 * size, "{most:e} beside {size:e}");
+    }
+
+    #[test]
+    fn sweeps_and_residuals_are_those_of_the_rows_to_single_precision() {
+        let mut with_others = 0;
+        for (rows, others) in all_rows() {
+            let (count, mut sweep) = (rows.nodes.len(), SweepRows::new(&rows));
+            with_others += sweep.far.len();
+            let (b, start, far) = (vector(count, 3), vector(count, 8), vector(others, 5));
+            let (mut x, mut exact, mut r, mut exact_r) = (start.clone(), start, b.clone(), b.clone());
+            sweep.relax(&rows, &b, &mut x, &far);
+            rows.forward(0..count, &b, &mut exact, &far);
+            rows.backward(0..count, &b, &mut exact, &far);
+            check(&x, &exact, largest(&exact));
+            // Other ranks have gone on meanwhile.
+            let far = vector(others, 6);
+            let forces = rows.norm_infinity() * largest(&x).max(largest(&far));
+            sweep.residual(&rows, &b, &x, &far, &mut r);
+            rows.residual(0..count, &b, &x, &far, &mut exact_r);
+            check(&r, &exact_r, forces);
+            // From zero the values that stand there do not matter.
+            sweep.relax_from_zero(&rows, &b, &mut x);
+            exact.fill([0.0; 2]);
+            rows.forward(0..count, &b, &mut exact, &[]);
+            check(&x, &exact, largest(&exact));
+            sweep.residual(&rows, &b, &x, &far, &mut r);
+            rows.residual(0..count, &b, &x, &far, &mut exact_r);
+            check(&r, &exact_r, forces);
+        }
+        assert!(with_others > 0, "some rows need nodes of other ranks");
+    }
+
+    #[test]
+    fn a_translation_keeps_its_forces_to_the_last_digit() {
+        for (rows, _) in all_rows() {
+            let sweep = SweepRows::new(&rows);
+            for k in 0..rows.nodes.len() {
+                let mut sum = inverse(&sweep.inverses[k]).expect("an inverse has one");
+                for place in rows.near.row(k).filter(|&place| place != sweep.diagonals[k] as usize) {
+                    (0..4).for_each(|at| sum[at / 2][at % 2] += f64::from(sweep.blocks[place][at]) * sweep.unit);
+                }
+                let size = rows.diagonal(k).as_flattened().iter().fold(0.0_f64, |size, v| size.max(v.abs()));
+                let exact = rows
+                    .near
+                    .couplings(k)
+                    .fold([0.0; 4], |sum, (_, block)| std::array::from_fn(|at| sum[at] + block[at / 2][at % 2]));
+                assert!((0..4).all(|at| (sum[at / 2][at % 2] - exact[at]).abs() <= 1e-13 * size), "row {k}: {sum:?}, {exact:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn units_and_changed_rows_are_followed() {
+        for factor in [1e-150, 1e150] {
+            let (mut rows, others) = all_rows().swap_remove(0);
+            rows.near.blocks.as_flattened_mut().as_flattened_mut().iter_mut().for_each(|value| *value *= factor);
+            (0..rows.nodes.len()).for_each(|k| rows.invert(k, rows.diagonal_place(k)));
+            let (count, mut sweep) = (rows.nodes.len(), SweepRows::new(&rows));
+            let b: Vec<[f64; 2]> = vector(count, 3).into_iter().map(|b| b.map(|b| b * factor)).collect();
+            // A support under one node, much stiffer than the body.
+            let (changed, stiff) = (count / 2, 1e3 * factor);
+            rows.add_at(rows.diagonal_place(changed), &[[stiff, 0.0], [0.0, stiff]]);
+            rows.invert(changed, rows.diagonal_place(changed));
+            sweep.refresh(&rows, std::iter::once(changed));
+            let (mut x, mut exact, far) = (vec![[0.0; 2]; count], vec![[0.0; 2]; count], vector(others, 5));
+            sweep.relax(&rows, &b, &mut x, &far);
+            rows.forward(0..count, &b, &mut exact, &far);
+            rows.backward(0..count, &b, &mut exact, &far);
+            check(&x, &exact, largest(&exact));
+            assert!(largest(&x[changed..=changed]) < 0.05 * largest(&x), "it is held");
+        }
+    }
+}
