@@ -124,12 +124,23 @@ impl<'a> Assembly<'a> {
         };
         let mut counts = vec![0; self.nodes.len()];
         for part in &self.parts {
-            self.each_row(part, |k, (i, j)| counts[k] += coupled(level, i, j).count() as u32);
+            match level.order {
+                Order::P1 if level.is_one_triangle() => self.each_row_of_one::<3>(part, |k, _, _| counts[k] += 3),
+                Order::P2 if level.is_one_triangle() => self.each_row_of_one::<6>(part, |k, _, _| counts[k] += 6),
+                _ => self.each_row(part, |k, (i, j)| counts[k] += coupled(level, i, j).count() as u32),
+            }
         }
         of_contact().for_each(|(k, others)| counts[k] += others.len() as u32);
         let mut couplings = RowColumns::new(&counts);
+        let mut push_all = |k: usize, nodes: &[usize]| nodes.iter().for_each(|&node| couplings.push(k, node));
         for part in &self.parts {
-            self.each_row(part, |k, (i, j)| coupled(level, i, j).for_each(|(a, b)| couplings.push(k, part.numbers.node(a, b))));
+            match level.order {
+                Order::P1 if level.is_one_triangle() => self.each_row_of_one::<3>(part, |k, _, nodes| push_all(k, nodes)),
+                Order::P2 if level.is_one_triangle() => self.each_row_of_one::<6>(part, |k, _, nodes| push_all(k, nodes)),
+                _ => self.each_row(part, |k, (i, j)| {
+                    coupled(level, i, j).for_each(|(a, b)| push_all(k, &[part.numbers.node(a, b)]));
+                }),
+            }
         }
         for (k, others) in of_contact() {
             others.iter().for_each(|&other| couplings.push(k, other));
@@ -175,6 +186,17 @@ impl<'a> Assembly<'a> {
         if part.is_own && !part.is_whole { outside(n, &part.strips).for_each(&mut show) } else { sides(n).for_each(&mut show) }
     }
 
+    /// The same of a macro triangle that is a single triangle, all of whose nodes are coupled: the place of each row, which of the
+    /// nodes it is of, and the numbers of all nodes.
+    #[inline]
+    fn each_row_of_one<const N: usize>(&self, part: &AssemblyPart, mut show: impl FnMut(usize, usize, &[usize; N])) {
+        let (level, own) = (self.space.numbering.level, &self.space.own);
+        let nodes = one_triangle::<N>(level).map(|(i, j)| part.numbers.node(i, j));
+        for (a, row) in nodes.iter().enumerate().filter(|(_, row)| own.contains(row)) {
+            show(place(&self.nodes, row - own.start).expect("a stored row"), a, &nodes);
+        }
+    }
+
     /// Adds the part that a macro triangle has in the stored rows.
     fn add_rows(
         &self,
@@ -216,20 +238,18 @@ impl<'a> Assembly<'a> {
         rows: &mut StoredRows,
         lift: &mut impl FnMut(usize, Point),
     ) -> Result<(), BadJacobian> {
-        let (level, own) = (self.space.numbering.level, &self.space.own);
-        let stiffness = one_stiffness::<N>(&self.scene.mesh, part.triangle, level, law)?;
-        let nodes = one_triangle::<N>(level).map(|(i, j)| part.numbers.node(i, j));
-        let held = nodes.map(|node| self.space.constraints.get(node));
-        for (a, &row) in nodes.iter().enumerate().filter(|(_, row)| own.contains(row)) {
-            let place = place(&self.nodes, row - own.start).expect("a stored row");
+        let stiffness = one_stiffness::<N>(&self.scene.mesh, part.triangle, self.space.numbering.level, law)?;
+        let constraint = |node: usize| self.space.constraints.get(node);
+        self.each_row_of_one::<N>(part, |place, a, nodes| {
+            let held = constraint(nodes[a]);
             for (b, &node) in nodes.iter().enumerate() {
-                let block = match (held[a], held[b]) {
+                let block = match (held, constraint(node)) {
                     (None, None) => stiffness[a][b],
-                    (left, right) => constrained(&stiffness[a][b], left, right, a == b, |force| lift(row, force)),
+                    (left, right) => constrained(&stiffness[a][b], left, right, a == b, |force| lift(nodes[a], force)),
                 };
-                rows.add(place, BlockColumn::of(node, own, far), &block);
+                rows.add(place, BlockColumn::of(node, &self.space.own, far), &block);
             }
-        }
+        });
         Ok(())
     }
 

@@ -194,14 +194,14 @@ impl RowWork for OnSweepRows<'_> {
                 }
             }
             SweepTask::BehindBoth { x, r } => {
-                for k in 0..count {
-                    let [first, second] = rows.subtract::<L, false>(lanes, near, k, r[k], x);
-                    r[k] = [first - rows.sums[k][0], second - rows.sums[k][1]];
+                for (k, (r, sum)) in r.iter_mut().zip(&rows.sums).enumerate() {
+                    let [first, second] = rows.subtract::<L, false>(lanes, near, k, *r, x);
+                    *r = [first - sum[0], second - sum[1]];
                 }
             }
             SweepTask::BehindForward { x, r } => {
-                for k in 0..count {
-                    r[k] = rows.subtract::<L, true>(lanes, near, k, r[k], x);
+                for (k, r) in r.iter_mut().enumerate() {
+                    *r = rows.subtract::<L, true>(lanes, near, k, *r, x);
                 }
             }
         }
