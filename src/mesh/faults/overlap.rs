@@ -53,7 +53,8 @@ fn overlap(a: [Point; 3], b: [Point; 3]) -> bool {
     !parts(&a, &b) && !parts(&b, &a)
 }
 
-/// Squares that the strip may mark for each triangle of the mesh. Boxes of triangles that do not overlap cover some two squares each.
+/// Squares that the strip marks for each triangle of the mesh at most, and that it looks at for one. Boxes of triangles that are alike
+/// cover some two squares each; without the bound the work would be quadratic for bands of long thin ones.
 const MOST_MARKS: usize = 16;
 
 /// The strip along all boundaries, in squares of one grid, as many as the mesh has triangles: most triangles lie away from it.
@@ -73,12 +74,14 @@ impl BoundaryStrip {
             |[low, high], x| [low.inf(x), high.sup(x)]
         });
         let size = high - low;
-        let width = (size.x * size.y / mesh.triangles.len() as f64).sqrt().max(size.amax() / mesh.triangles.len() as f64);
+        let count = mesh.triangles.len() as f64;
+        // Roots first: the product of small sizes would be zero.
+        let width = (size.x.sqrt() * size.y.sqrt() / count.sqrt()).max(size.amax() / count);
         let [row, rows] = [size.x, size.y].map(|size| (size / width) as usize + 1);
         let mut strip = Self { low, width, row, marked: vec![false; row * rows] };
         let mut marks = 0;
         for &triangle in on_boundary {
-            for square in strip.squares(&mesh.corners(triangle)) {
+            for square in strip.squares(strip.box_of(&mesh.corners(triangle))) {
                 strip.marked[square] = true;
                 marks += 1;
                 if marks > MOST_MARKS * mesh.triangles.len() {
@@ -89,17 +92,22 @@ impl BoundaryStrip {
         strip
     }
 
-    /// The squares under the box of a triangle.
-    fn squares(&self, corners: &[Point; 3]) -> impl Iterator<Item = usize> + use<> {
-        let [a, b, c] = corners;
-        let place = |x: Point| ((x - self.low) / self.width).map(|v| v as usize);
-        let (low, high, row) = (place(a.inf(b).inf(c)), place(a.sup(b).sup(c)), self.row);
-        (low.y..=high.y).flat_map(move |j| (low.x..=high.x).map(move |i| j * row + i))
+    /// The first and the last square, in both directions, under the box of a triangle.
+    fn box_of(&self, [a, b, c]: &[Point; 3]) -> [[usize; 2]; 2] {
+        let place = |x: Point| [0, 1].map(|k| ((x[k] - self.low[k]) / self.width) as usize);
+        [place(a.inf(b).inf(c)), place(a.sup(b).sup(c))]
     }
 
-    /// Whether a triangle may have a triangle on a boundary in its box.
+    fn squares(&self, [low, high]: [[usize; 2]; 2]) -> impl Iterator<Item = usize> + use<> {
+        let row = self.row;
+        (low[1]..=high[1]).flat_map(move |j| (low[0]..=high[0]).map(move |i| j * row + i))
+    }
+
+    /// Whether a triangle may have a triangle on a boundary in its box; one that is long beside the others may always.
     fn meets(&self, corners: &[Point; 3]) -> bool {
-        self.marked.is_empty() || self.squares(corners).any(|square| self.marked[square])
+        let [low, high] = self.box_of(corners);
+        let is_long = (high[0] - low[0] + 1).saturating_mul(high[1] - low[1] + 1) > MOST_MARKS;
+        is_long || self.marked.is_empty() || self.squares([low, high]).any(|square| self.marked[square])
     }
 }
 
@@ -186,6 +194,21 @@ mod tests {
         assert!(!overlap(at(0.0, 0.0), at(0.6, 0.6)));
         let mirrored = [Point::new(1.0, 0.0), Point::new(1.0, 1.0), Point::new(0.0, 1.0)];
         assert!(!overlap(at(0.0, 0.0), mirrored), "an edge in common");
+    }
+
+    /// Thin triangles across a coarse body: each lies in the boxes of all others.
+    #[test]
+    fn a_long_triangle_is_not_looked_for_in_the_strip() {
+        let mesh = crate::mesh::samples::columns(500, 1.0);
+        let strip = BoundaryStrip::new(&mesh, &[0]);
+        let at = |x: f64, y: f64| Point::new(x, y);
+        let thin = [at(0.0, 0.0), at(500.0, 1.0), at(499.0, 1.0)];
+        let [low, high] = strip.box_of(&thin);
+        assert!((high[0] - low[0] + 1) * (high[1] - low[1] + 1) > MOST_MARKS && strip.meets(&thin));
+        let small = [at(400.0, 0.0), at(401.0, 0.0), at(400.0, 1.0)];
+        assert!(!strip.meets(&small) && strip.meets(&mesh.corners(0)), "one triangle is on the boundary");
+        let all = BoundaryStrip::new(&mesh, &vec![0; 100 * mesh.triangles.len()]);
+        assert!(all.marked.is_empty() && all.meets(&small), "too many marks");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! One level of the cycle: its rows, its vectors, and the way to the next coarser level.
 
 use crate::multigrid::interpolation::{InterpolationRoom, NodeInterpolation};
-use crate::multigrid::stiffness::{EarlierCouplings, LatticeOperator, SweepHalves, SweepRows};
+use crate::multigrid::stiffness::{LatticeOperator, SweepHalves, SweepRows};
 use crate::petsc::{Halo, Session};
 use std::rc::Rc;
 
@@ -20,8 +20,6 @@ pub struct CycleLevel {
     /// Right-hand side and solution, but for the finest level, which works on those that it is given.
     pub b: Vec<[f64; 2]>,
     pub x: Vec<[f64; 2]>,
-    /// For sweeps from zero; levels below the finest have them.
-    earlier: Option<EarlierCouplings>,
     far: Vec<[f64; 2]>,
     room: InterpolationRoom,
     /// Nodes of this rank.
@@ -37,17 +35,13 @@ impl CycleLevel {
         let is_fused = sweep_rows.is_none() && step.as_ref().is_some_and(is_of_rows);
         let (nodes, far) = (lattice.node_count(), vec![[0.0; 2]; lattice.far_count()]);
         let (b, x, room) = (Vec::new(), Vec::new(), InterpolationRoom::default());
-        Self { lattice, halo, step, sweep_rows, is_fused, b, x, earlier: None, far, room, nodes }
+        Self { lattice, halo, step, sweep_rows, is_fused, b, x, far, room, nodes }
     }
 
-    /// Makes what levels below the finest have beside it: vectors, and what sweeps from zero need.
+    /// Makes the vectors of a level below the finest.
     pub fn with_vectors(mut self) -> Self {
         self.b = vec![[0.0; 2]; self.nodes];
         self.x = self.b.clone();
-        if self.sweep_rows.is_none() {
-            let (rows, order) = (self.lattice.rows().borrow(), self.lattice.order());
-            self.earlier = Some(EarlierCouplings::new(&rows, self.lattice.strips(), order, self.nodes));
-        }
         self
     }
 
@@ -133,15 +127,11 @@ impl CycleLevel {
     }
 
     /// The forward half of a sweep from zero, whatever `x` holds.
-    ///
-    /// # Panics
-    /// On the finest level, if not all of its rows are stored.
     pub fn relax_from_zero(&mut self, b: &[[f64; 2]], x: &mut [[f64; 2]]) {
-        if let Some(rows) = &mut self.sweep_rows {
-            return rows.relax_from_zero(&self.lattice.rows().borrow(), b, x);
-        }
         let stored = self.lattice.rows().borrow();
-        let rows = self.lattice.lattice_rows(&stored);
-        rows.relax_from_zero(self.earlier.as_ref().expect("a level below the finest"), b, x);
+        match &mut self.sweep_rows {
+            Some(rows) => rows.relax_from_zero(&stored, b, x),
+            None => self.lattice.lattice_rows(&stored).relax_from_zero(b, x),
+        }
     }
 }

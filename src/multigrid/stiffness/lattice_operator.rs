@@ -88,7 +88,13 @@ impl LatticeOperator {
         if let Some(diagonal) = places.diagonal {
             rows.invert(places.stored as usize, diagonal);
         }
-        self.changed.borrow_mut().push(places.stored);
+        let mut changed = self.changed.borrow_mut();
+        changed.push(places.stored);
+        // Nobody asks for those of a level that is not swept by rows of its own.
+        if changed.len() > 2 * rows.nodes.len() {
+            changed.sort_unstable();
+            changed.dedup();
+        }
     }
 
     /// The stored rows that have been added to since this was asked last, ascending.
@@ -99,10 +105,10 @@ impl LatticeOperator {
         changed
     }
 
-    /// The rows as sweeps read them, if all of this rank's are stored.
+    /// The rows as sweeps read them, if all of this rank's are stored, and single precision does for them.
     pub fn sweep_rows(&self) -> Option<SweepRows> {
         let rows = self.rows.borrow();
-        (rows.nodes.len() == self.own.len()).then(|| SweepRows::new(&rows))
+        (rows.nodes.len() == self.own.len() && SweepRows::can_be_of(&rows)).then(|| SweepRows::new(&rows))
     }
 
     /// In which order rows are worked on.

@@ -74,7 +74,6 @@
 
 mod assembly;
 mod block_lanes;
-mod earlier_couplings;
 mod elastic;
 mod even_triangles;
 mod expanded;
@@ -94,7 +93,6 @@ mod sweep_order;
 mod sweep_rows;
 mod triangle_kernel;
 
-pub use earlier_couplings::EarlierCouplings;
 pub use elastic::Elastic;
 pub use lattice_operator::LatticeOperator;
 pub use stored_rows::BlockPlace;

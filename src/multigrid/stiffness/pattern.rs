@@ -10,6 +10,7 @@ pub struct RowColumns {
     starts: Vec<usize>,
     /// Where the next column of each row goes.
     ends: Vec<usize>,
+    /// A mesh has fewer than 2³² nodes: PETSc counts its unknowns by 31 bits, or there is no memory for them.
     columns: Vec<u32>,
 }
 

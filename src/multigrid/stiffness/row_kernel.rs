@@ -1,6 +1,5 @@
 //! Sweeps, residuals and products of stored rows.
 
-use super::earlier_couplings::EarlierCouplings;
 use super::lanes::Lanes;
 use super::stored_rows::{Part, StoredRows};
 use crate::element::Block;
@@ -11,7 +10,6 @@ pub enum RowTask<'a> {
     Multiply { y: &'a mut [[f64; 2]], x: &'a [[f64; 2]] },
     Residual { r: &'a mut [[f64; 2]], b: &'a [[f64; 2]], x: &'a [[f64; 2]] },
     Forward { b: &'a [[f64; 2]], x: &'a mut [[f64; 2]] },
-    FromZero { earlier: &'a EarlierCouplings, b: &'a [[f64; 2]], x: &'a mut [[f64; 2]] },
     Backward { b: &'a [[f64; 2]], x: &'a mut [[f64; 2]] },
 }
 
@@ -49,11 +47,6 @@ impl RowWork for OnRows<'_> {
             RowTask::Forward { b, x } => {
                 for k in range {
                     rows.relax::<L, false>(lanes, k, b, x, far);
-                }
-            }
-            RowTask::FromZero { earlier, b, x } => {
-                for k in range {
-                    rows.relax_from_zero(lanes, k, earlier.row(k), b, x);
                 }
             }
             RowTask::Backward { b, x } => {
@@ -127,26 +120,5 @@ impl StoredRows {
         let sum = self.subtract::<L, BACKWARD>(lanes, k, b[node], x, far);
         let ([u, v], inverse) = (x[node], self.inverse(k));
         x[node] = [u + (inverse[0][0] * sum[0] + inverse[0][1] * sum[1]), v + (inverse[1][0] * sum[0] + inverse[1][1] * sum[1])];
-    }
-
-    /// Relaxes a node that is zero, as are all but those of these couplings: columns and places.
-    #[inline(always)]
-    fn relax_from_zero<L: Lanes<Nodes = [[f64; 2]; 2]>>(
-        &self,
-        lanes: L,
-        k: usize,
-        couplings: &[[u32; 2]],
-        b: &[[f64; 2]],
-        x: &mut [[f64; 2]],
-    ) {
-        let (node, inverse) = (self.nodes[k] as usize, self.inverse(k));
-        let blocks = &self.near.blocks[self.near.firsts[k] as usize..];
-        let mut sum = lanes.load([[0.0; 2]; 2]);
-        for &[column, place] in couplings {
-            sum = lanes.multiply_add(lanes.load(blocks[place as usize]), lanes.load([x[column as usize]; 2]), sum);
-        }
-        let [[p, q], [r, s]] = lanes.store(sum);
-        let sum = [b[node][0] - (p + q), b[node][1] - (r + s)];
-        x[node] = inverse.map(|row| row[0] * sum[0] + row[1] * sum[1]);
     }
 }

@@ -14,8 +14,7 @@ use crate::element::Block;
 pub enum SweepHalves {
     /// The first one alone, in the order of the nodes.
     Forward,
-    /// The first one alone, from zero, whatever the nodes hold: of even macro triangles, and of others by
-    /// [`super::LatticeRows::relax_from_zero`].
+    /// The first one alone, from zero, whatever the inner nodes of even macro triangles hold; others hold zeros.
     ForwardFromZero,
     /// Both.
     Both,
