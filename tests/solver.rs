@@ -173,11 +173,15 @@ fn the_cycle_above_auxiliary_levels_is_of_mezha_too() {
         std::fs::create_dir(&folder).expect("a folder");
         write_scene(&folder, &Mesh::inclined_bars(columns).text(), BARS)
     });
-    for ((file, refine), ranks) in
-        [(0, 0), (1, 0), (1, 1)].into_iter().flat_map(|run| ranks_in_turn(1).into_iter().map(move |ranks| (run, ranks)))
+    for ((file, refine, order), ranks) in
+        [(0, 0, 1), (1, 0, 1), (1, 1, 2)].into_iter().flat_map(|run| ranks_in_turn(1).into_iter().map(move |ranks| (run, ranks)))
     {
         let run = || {
-            Run::file(&files[file]).ranks(ranks).set("mesh.order", 1).set("mesh.refine", refine).set("solver.tolerance", "1e-6")
+            Run::file(&files[file])
+                .ranks(ranks)
+                .set("mesh.order", order)
+                .set("mesh.refine", refine)
+                .set("solver.tolerance", "1e-6")
         };
         let [own, of_petsc] =
             [run(), run().petsc("-fieldsplit_u_mg_levels_ksp_max_it 2")].map(|run| run.petsc("-ksp_view").converged());

@@ -53,8 +53,8 @@ fn overlap(a: [Point; 3], b: [Point; 3]) -> bool {
     !parts(&a, &b) && !parts(&b, &a)
 }
 
-/// Squares that the strip marks for each triangle of the mesh at most, and that it looks at for one. Boxes of triangles that are alike
-/// cover some two squares each; without the bound the work would be quadratic for bands of long thin ones.
+/// Squares that the strip marks for each triangle of the mesh at most, and that it looks at for one. The box of an equilateral
+/// triangle is 1.5 squares wide and 1.3 high in a mesh of its like, so that it meets 6 of them in the mean, and 9 at most. Without the bound the work would be quadratic for bands of long thin ones.
 const MOST_MARKS: usize = 16;
 
 /// The strip along all boundaries, in squares of one grid, as many as the mesh has triangles: most triangles lie away from it.
@@ -176,7 +176,7 @@ fn of_square(sorted: &[(GridSquare, u32)], square: GridSquare) -> impl Iterator<
 fn level(corners: &[Point; 3]) -> i32 {
     let [a, b, c] = corners;
     let size = (a.sup(b).sup(c) - a.inf(b).inf(c)).amax();
-    // The exponent of a normal number: what `log2` gives, for a tenth of its time.
+    // The exponent of a normal number: what `log2` and `ceil` give.
     let exponent = (size.to_bits() >> 52) as i32 - 1023;
     exponent + i32::from(size.to_bits() << 12 != 0)
 }
@@ -196,7 +196,7 @@ mod tests {
         assert!(!overlap(at(0.0, 0.0), mirrored), "an edge in common");
     }
 
-    /// Thin triangles across a coarse body: each lies in the boxes of all others.
+    /// Nor is any triangle where the boxes of those on boundaries meet too many squares.
     #[test]
     fn a_long_triangle_is_not_looked_for_in_the_strip() {
         let mesh = crate::mesh::samples::columns(500, 1.0);

@@ -54,16 +54,16 @@
 //! installs), while its kind, parts and set-up stay. Levels of up to 3000 unknowns are on one rank, larger ones on one of every
 //! 2, 4, 8, … ranks, so that each of these has about a thousand unknowns or more (`discretisation/level_ranks.rs`); the finest stays on all.
 //! From the first level on one rank downwards nothing is sent, and that rank solves the coarsest with a factor. Where the macro
-//! mesh is larger, it is swept, too, and a cycle of PETSc's multigrid on the auxiliary levels below it stands in the place of the factor
-//! (`cycle/coarsest.rs`). All messages go from neighbour to neighbour, and are under way while strips, or the first sides of a
+//! mesh is larger, it is swept, too, and a cycle of PETSc's multigrid on the auxiliary levels below it stands in the place of the
+//! factor (`cycle/coarsest.rs`). All messages go from neighbour to neighbour, and are under way while strips, or the first sides of a
 //! sweep, are worked on. The product of the saddle point is a shell, too (`nest_product`): PETSc's nest finds the parts of its
 //! vectors by a sum over all ranks, four in each product. So an iteration of GMRES has two sums over all ranks for its inner
 //! products (one of BiCGStab four, for two cycles), and no other collective; `tests/messages.rs` counts them.
 //!
 //! Any option of the user's that begins with `-fieldsplit_u_` brings PETSc's own multigrid back, on the same levels, as do
 //! stronger smoothers that a slow solve falls back on. Then PETSc sees a level as a shell (`petsc::Operator`): product, residual,
-//! one symmetric Gauss-Seidel sweep, diagonal, norm. Where options of the user's may want more, as another smoother, omega, or `-fieldsplit_u_pc_type hypre`, and
-//! on the coarsest level, it sees a matrix with all rows, made from the same storage and changed along with it. Where a
+//! one symmetric Gauss-Seidel sweep, diagonal, norm. Where options of the user's may want more, as another smoother, omega, or
+//! `-fieldsplit_u_pc_type hypre`, and on the coarsest level, it sees a matrix with all rows, made from the same storage and changed along with it. Where a
 //! factorisation wants one (the last rung of the ladder of solvers, the inf-sup constant), it is made first. Contact changes stored
 //! rows alone: nodes of Γ_C lie on sides of macro triangles.
 //! After the stencils of hierarchical hybrid grids (Bergen, Hülsemann 2004).

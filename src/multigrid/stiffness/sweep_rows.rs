@@ -17,8 +17,7 @@ use super::strips::inverse;
 use crate::element::Block;
 
 /// Smallest part of a diagonal block's trace that its smaller eigenvalue may be. Rounding takes 3e-8 of the trace, three hundredths of
-/// an eigenvalue of this size: at a tenth of this value it would take a third, and at ten times it nothing that solves notice. Of
-/// bodies alone it is a tenth or more.
+/// an eigenvalue of this size; at a tenth of this value it would take a third of it, at ten times three thousandths.
 const LEAST: f64 = 1e-6;
 
 /// Beside the rows of all nodes of a rank, in the order of the nodes, which is that of the sweep: their couplings as it reads them.

@@ -97,8 +97,8 @@ impl<'a> Cursor<'a> {
         Ok(())
     }
 
-    /// The whole numbers at the beginning of the next line. A line of them alone is read digit by digit, which takes a third of
-    /// the time.
+    /// The whole numbers at the beginning of the next line. A line of them alone is read digit by digit, without a look for
+    /// its end and for its words before.
     pub fn line_into_whole(&mut self, section: &str, values: &mut [i64]) -> Result<(), MeshError> {
         match digits(&self.bytes[self.at..], values) {
             Some(length) => {
