@@ -271,8 +271,9 @@ fn ring(edges: usize, middle: f64, [bore, rim]: [f64; 2]) -> Block {
     Block { points: points.collect(), triangles: quadrangles.flat_map(cut).collect(), sides: [side(2), side(0), vec![], vec![]] }
 }
 
-/// So many rings, shrunk into others that are held at their rims, and a case that holds their turns.
-fn shrunk_rings(count: usize) -> (Mesh, String) {
+/// So many rings, shrunk into others that are held at their rims, and a case that holds their turns. They are as high as they are
+/// wide, or by a factor less: then contact resists turns.
+fn shrunk_rings(count: usize, height: f64) -> (Mesh, String) {
     let mut case = String::from("mesh = { file = \"mesh.msh\", refine = 1 }\nsolver.tolerance = 1e-10\n");
     let mut bodies = Vec::new();
     let name = |words: String| -> &'static str { words.leak() };
@@ -281,14 +282,18 @@ fn shrunk_rings(count: usize) -> (Mesh, String) {
         case += &format!(
             "body.in{k} = {{ young = 7000.0, poisson = 0.3 }}
              body.out{k} = {{ young = 7000.0, poisson = 0.3 }}
-             geometry.seam{k} = {{ curves = [\"in{k}.rim\", \"out{k}.bore\"], circle = {{ centre = [{middle}, 0], radius = 2 }} }}
+             geometry.seam{k} = {{ curves = [\"in{k}.rim\", \"out{k}.bore\"], x = \"{middle} + 2*cos(t)\", y = \"2*{height}*sin(t)\", t = [0, 6.283185307179586] }}
              contact.seam{k} = {{ between = [\"in{k}.rim\", \"out{k}.bore\"], curve = \"geometry\", gap = \"-1e-3*(1 + 0.3*(x - {middle}))\" }}
              support.out{k} = {{ on = \"out{k}.rim\", ux = 0.0, uy = 0.0 }}
              support.in{k} = {{ body = \"in{k}\", mean = true, angle = 0.0 }}\n"
         );
-        let inner = ring(9, middle, [1.0, 2.0]);
+        let flattened = |mut block: Block| {
+            block.points.iter_mut().for_each(|point| point[1] *= height);
+            block
+        };
+        let inner = flattened(ring(9, middle, [1.0, 2.0]));
         bodies.push((name(format!("in{k}")), inner, [name(format!("in{k}.rim")), "", "", ""]));
-        let outer = ring(11, middle, [2.0, 3.0]);
+        let outer = flattened(ring(11, middle, [2.0, 3.0]));
         bodies.push((name(format!("out{k}")), outer, [name(format!("out{k}.rim")), name(format!("out{k}.bore")), "", ""]));
     }
     (Mesh { bodies }, case)
@@ -296,9 +301,19 @@ fn shrunk_rings(count: usize) -> (Mesh, String) {
 
 #[test]
 fn many_held_turns_take_no_more_iterations_than_one() {
+    many_take_no_more_iterations_than_one(1.0, 100);
+}
+
+/// Contact resists them: where only eight are told to the preconditioner, sixty take 30 iterations instead of 23.
+#[test]
+fn many_held_turns_of_bodies_that_are_not_round_take_no_more_iterations_than_one() {
+    many_take_no_more_iterations_than_one(0.8, 60);
+}
+
+fn many_take_no_more_iterations_than_one(height: f64, many: usize) {
     let ended = |count: usize, ranks: usize, solver: &str| {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let (mesh, case) = shrunk_rings(count);
+        let (mesh, case) = shrunk_rings(count, height);
         let file = write_scene(folder.path(), &mesh.text(), &case);
         Run::file(&file).set("solver.name", solver).set("output.fields", false).ranks(ranks).converged()
     };
@@ -309,7 +324,7 @@ fn many_held_turns_take_no_more_iterations_than_one() {
     let one = ended(1, 1, "fieldsplit");
     let (iterations, energy) = (most(&one), one.number("/energy/total"));
     for (count, ranks, solver) in
-        [(10, 1, "direct"), (100, 2, "fieldsplit")].into_iter().chain(RANKS.map(|n| (10, n, "fieldsplit")))
+        [(10, 1, "direct"), (many, 2, "fieldsplit")].into_iter().chain(RANKS.map(|n| (10, n, "fieldsplit")))
     {
         let many = ended(count, ranks, solver);
         let words = format!("{count} rings on {ranks} ranks, {solver}");

@@ -17,6 +17,6 @@ mod triangle_lattice;
 mod user_options;
 
 pub use auxiliary::GalerkinLevels;
-pub use cycle::Cycle;
+pub use cycle::{Border, Cycle, Sparse, scaled_inverse};
 pub use interpolation::{Interpolation, interpolations};
 pub use stiffness::{BlockPlace, ContactNeighbours, Elastic, RowPlaces, Stiffness};

@@ -20,6 +20,7 @@ use crate::discretisation::{Discretisation, Field, Space, SystemError, nodal_for
 use crate::discretisation::{held_motions, holds_of_bodies};
 use crate::geometry::Point;
 use crate::mesh::lattice;
+use crate::multigrid::Sparse;
 use crate::petsc::Session;
 use nalgebra::DMatrix;
 use std::collections::{BTreeMap, HashMap};
@@ -27,9 +28,6 @@ use std::ops::Range;
 
 /// Gaps below this share of what their terms add up to are rounding.
 const ROUNDING: f64 = 1e-12;
-
-/// Values at unknowns of this rank.
-pub type Sparse = Vec<(u32, f64)>;
 
 /// A component of a rigid motion.
 pub struct RigidComponent {

@@ -4,7 +4,7 @@
 use super::level::CycleLevel;
 use crate::multigrid::interpolation::Interpolation;
 use crate::multigrid::stiffness::LatticeOperator;
-use crate::petsc::{Error, Factor, Krylov, MultigridCycle, MultigridLevel, Result, Session, Vector};
+use crate::petsc::{Error, Factor, Krylov, Matrix, MultigridCycle, MultigridLevel, Result, Session, Vector};
 use std::rc::Rc;
 
 /// Prefix of the options of the smoothers and of the coarsest solver: that of PETSc's own multigrid, so that the defaults of
@@ -13,6 +13,10 @@ const PREFIX: &str = "fieldsplit_u_";
 
 /// Prefix of the options of the coarsest solver alone.
 const COARSE_PREFIX: &str = "fieldsplit_u_mg_coarse_";
+
+/// Cycles on auxiliary levels for what a force does, at most, and the relative residual that is enough.
+const MOST_CYCLES: usize = 10;
+const ENOUGH: f64 = 0.1;
 
 /// The solver below the levels that are swept.
 pub enum Coarsest {
@@ -30,6 +34,7 @@ pub struct AuxiliarySolver {
     /// All interpolations, of which this one leads up from the levels here.
     interpolations: Rc<[Interpolation]>,
     up: usize,
+    operator: Matrix,
     b: Vector,
     x: Vector,
     /// On the level above.
@@ -46,8 +51,9 @@ impl Coarsest {
         Ok(Self::Factor { factor: factor(&lattice, session)?, lattice, b: nodes.clone(), x: nodes })
     }
 
-    /// A solver on auxiliary levels, the coarsest first; the interpolation behind theirs leads up from them. **Collective**
-    pub fn auxiliary(levels: &[MultigridLevel], interpolations: &Rc<[Interpolation]>, session: &Session) -> Result<Self> {
+    /// A solver on levels below those that are swept, the coarsest first; the interpolation behind theirs leads up from them.
+    /// **Collective**
+    pub fn on_levels(levels: &[MultigridLevel], interpolations: &Rc<[Interpolation]>, session: &Session) -> Result<Self> {
         let (finest, is_cycle, up) = (levels[levels.len() - 1].operator, levels.len() > 1, levels.len() - 1);
         let solver = Krylov::new(session, if is_cycle { PREFIX } else { COARSE_PREFIX })?;
         solver.set_operators(finest, finest)?;
@@ -58,7 +64,8 @@ impl Coarsest {
         solver.set_up()?;
         let (x, fine) = interpolations[up].matrix.create_vectors()?;
         let (b, interpolations) = (finest.create_vectors()?.0, interpolations.clone());
-        Ok(Self::Auxiliary(Box::new(AuxiliarySolver { solver, is_cycle, interpolations, up, b, x, fine })))
+        let operator = finest.share()?;
+        Ok(Self::Auxiliary(Box::new(AuxiliarySolver { solver, is_cycle, interpolations, up, operator, b, x, fine })))
     }
 
     /// Takes over changed values. **Collective**
@@ -105,6 +112,34 @@ impl Coarsest {
         Ok(())
     }
 
+    /// Shows the forces.
+    pub fn with_forces<T>(&self, show: impl FnOnce(&[f64]) -> T) -> T {
+        match self {
+            Self::Factor { b, .. } => show(b.as_flattened()),
+            Self::Auxiliary(auxiliary) => show(&auxiliary.b.values()),
+        }
+    }
+
+    /// Hands out the solution to be changed.
+    pub fn with_solution<T>(&mut self, change: impl FnOnce(&mut [f64]) -> T) -> T {
+        match self {
+            Self::Factor { x, .. } => change(x.as_flattened_mut()),
+            Self::Auxiliary(auxiliary) => change(&mut auxiliary.x.values_mut()),
+        }
+    }
+
+    /// What the forces `b` do, and what is missing: `z ≈ A⁻¹ b` and `b - A z`; `before` is what they did in another set.
+    /// **Collective**
+    pub fn response(&mut self, before: Option<&[f64]>) -> Result<[Vec<f64>; 2]> {
+        if let Self::Auxiliary(auxiliary) = self {
+            return auxiliary.response(before);
+        }
+        self.solve(MultigridCycle::V)?;
+        let response = self.with_solution(|x| x.to_vec());
+        let missing = vec![0.0; response.len()];
+        Ok([response, missing])
+    }
+
     /// Solves, on auxiliary levels by one such cycle. **Collective**
     pub fn solve(&mut self, cycle: MultigridCycle) -> Result<()> {
         match self {
@@ -127,6 +162,32 @@ impl AuxiliarySolver {
     fn restrict(&mut self, bring: impl FnOnce(&mut [f64])) -> Result<()> {
         bring(&mut self.fine.values_mut());
         self.interpolations[self.up].matrix.multiply_transpose(&self.fine, &mut self.b)
+    }
+
+    /// [`Coarsest::response`], which begins with what the forces did before. **Collective**
+    fn response(&self, before: Option<&[f64]>) -> Result<[Vec<f64>; 2]> {
+        let Self { solver, operator, b, .. } = self;
+        let (mut z, mut r, mut change) = (b.duplicate()?, b.duplicate()?, b.duplicate()?);
+        z.set(0.0)?;
+        if let Some(before) = before {
+            z.values_mut().copy_from_slice(before);
+        }
+        operator.residual(b, &z, &mut r)?;
+        let (whole, mut left) = (b.norm()?, r.norm()?);
+        if left > whole {
+            z.set(0.0)?;
+            r.copy_from(b)?;
+        }
+        for _ in 0..MOST_CYCLES {
+            if left <= ENOUGH * whole {
+                break;
+            }
+            solver.apply(&r, &mut change)?;
+            z.axpy(1.0, &change)?;
+            operator.residual(b, &z, &mut r)?;
+            left = r.norm()?;
+        }
+        Ok([z.values().to_vec(), r.values().to_vec()])
     }
 }
 

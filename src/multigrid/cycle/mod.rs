@@ -6,6 +6,7 @@
 //! smoother, cycle or coarse solver, and where solves fall back on stronger smoothers, PETSc's own multigrid stands in its place
 //! (`system/solver`).
 
+mod border;
 mod coarsest;
 mod level;
 
@@ -14,11 +15,17 @@ use crate::discretisation::SystemError;
 use crate::multigrid::interpolation::{Interpolation, NodeInterpolation};
 use crate::multigrid::stiffness::{Stiffness, SweepHalves};
 use crate::petsc::{Action, MultigridCycle, MultigridLevel, Result, Session, Vector};
+pub use border::{Border, Sparse, scaled_inverse};
+use border::{LevelBorder, column_of};
 use coarsest::Coarsest;
 use level::CycleLevel;
 use std::cell::RefCell;
 use std::mem::take;
 use std::rc::Rc;
+
+/// Vectors of the finest level that take as much room as what a cycle keeps of unknowns beside the displacements, on what is below
+/// the levels that are swept.
+const ROOM: usize = 16;
 
 /// Full multigrid: on each level, from the coarsest one up, a V-cycle with one Gauss-Seidel sweep before and one after the coarse
 /// correction, from what the coarser level has found. Sweeps are symmetric; before the coarse corrections of levels below the
@@ -28,13 +35,16 @@ pub struct FullCycle {
     coarsest: Coarsest,
     /// Those that are swept, the coarsest first.
     levels: Vec<CycleLevel>,
+    /// Unknowns beside the displacements, if there are any, and how many there is room for.
+    border: Option<LevelBorder>,
+    room: usize,
     /// A residual, of one level at a time.
     r: Vec<[f64; 2]>,
 }
 
 impl FullCycle {
     /// On the levels of a stiffness; `levels` are those of PETSc's multigrid, with auxiliary ones below these. `None` if there is
-    /// nothing to sweep, if options want entries of interpolations, or if the coarsest level is large and has no auxiliary ones.
+    /// nothing to sweep, or if options want entries of interpolations.
     /// **Collective**
     fn new(
         stiffness: &[Stiffness],
@@ -48,21 +58,21 @@ impl FullCycle {
         let Some(steps) = steps.filter(|_| !interpolations.is_empty()) else { return Ok(None) };
         let steps = std::iter::once(None).chain(steps.into_iter().map(Some));
         let mut levels_of_rows = rows.into_iter().zip(steps);
-        let coarsest = if below > 0 {
-            Coarsest::auxiliary(&levels[..below], interpolations, session)?
-        } else if interpolations[0].matrix.size().1 > SMALL {
-            // So many bodies that no auxiliary level is smaller: PETSc's multigrid has a factor that all ranks make together.
-            return Ok(None);
-        } else {
-            let (lattice, _) = levels_of_rows.next().expect("a coarsest level");
-            Coarsest::factor(lattice, session)?
+        let is_small = interpolations[0].matrix.size().1 <= SMALL;
+        let own = if below == 0 { levels_of_rows.next() } else { None };
+        let coarsest = match own {
+            Some((lattice, _)) if is_small => Coarsest::factor(lattice, session)?,
+            // Of so many bodies that no auxiliary level is smaller, the coarsest level of the mesh has a factor that all ranks make.
+            _ => Coarsest::on_levels(&levels[..below.max(1)], interpolations, session)?,
         };
+        let size_above = |step: usize| interpolations[step].matrix.size();
+        let room = ROOM * size_above(interpolations.len() - 1).0 / size_above(below.saturating_sub(1)).1.max(1);
         let mut levels: Vec<CycleLevel> = levels_of_rows.map(|(rows, step)| CycleLevel::new(rows, step, session)).collect();
         let most = levels.iter().map(|level| level.nodes).max();
         let last = levels.pop().expect("a level that is swept");
         levels = levels.into_iter().map(CycleLevel::with_vectors).collect();
         levels.push(last);
-        Ok(Some(Self { coarsest, levels, r: vec![[0.0; 2]; most.unwrap_or(0)] }))
+        Ok(Some(Self { coarsest, levels, border: None, room, r: vec![[0.0; 2]; most.unwrap_or(0)] }))
     }
 
     /// Takes over the values of the stiffness, which have changed. **Collective**
@@ -71,72 +81,128 @@ impl FullCycle {
         Ok(self.coarsest.refresh(session)?)
     }
 
-    /// `x = M⁻¹ b` for the nodes of this rank. **Collective**
-    fn apply(&mut self, b: &[[f64; 2]], x: &mut [[f64; 2]]) -> Result<()> {
-        let Self { coarsest, levels, r } = self;
+    /// Takes over unknowns beside the displacements, for the present values of the stiffness. **Collective**
+    fn set_border(&mut self, border: Border, session: &Session) -> Result<()> {
+        if border.names.is_empty() {
+            self.border = None;
+            return Ok(());
+        }
+        let (before, top) = (self.border.take(), self.levels.len() - 1);
+        let (mut lower, mut below, mut responses) = (vec![Vec::new(); top], Vec::new(), Vec::new());
+        for (column, &name) in border.columns.iter().zip(&border.names) {
+            let mut forces = take(&mut self.r);
+            forces.fill([0.0; 2]);
+            column.iter().for_each(|&(at, value)| forces.as_flattened_mut()[at as usize] += value);
+            self.restrict(&forces[..self.levels[top].nodes])?;
+            self.r = forces;
+            lower.iter_mut().zip(&self.levels).for_each(|(columns, level)| columns.push(column_of(level.b.as_flattened())));
+            below.push(self.coarsest.with_forces(column_of));
+            responses.push(self.coarsest.response(before.as_ref().and_then(|before| before.response(name)))?);
+        }
+        self.border = Some(LevelBorder::new(border, lower, below, responses, session));
+        Ok(())
+    }
+
+    /// Restricts forces to all levels below the finest one. **Collective**
+    fn restrict(&mut self, forces: &[[f64; 2]]) -> Result<()> {
+        let Self { coarsest, levels, .. } = self;
         let top = levels.len() - 1;
         for l in (0..=top).rev() {
             let (below, level) = levels.split_at_mut(l);
             let own = take(&mut level[0].b);
-            let forces = if l == top { b } else { &own };
+            let forces = if l == top { forces } else { &own };
             match below.last_mut() {
                 Some(below) => level[0].restrict(forces, &mut below.b),
                 None => coarsest.restrict(&mut level[0], forces)?,
             }
             level[0].b = own;
         }
-        coarsest.solve(MultigridCycle::Full)?;
+        Ok(())
+    }
+
+    /// `x` of `[x; p] = M⁻¹ [b; g]` for the nodes of this rank; `g` is as long as the border, and `b` changes. **Collective**
+    fn apply(&mut self, b: &mut [[f64; 2]], g: &[f64], x: &mut [[f64; 2]]) -> Result<()> {
+        self.restrict(b)?;
+        let Self { coarsest, levels, border, r, .. } = self;
+        let top = levels.len() - 1;
+        let mut descent = Descent { coarsest, border: border.as_ref(), r };
+        let mut p = descent.solve_below(MultigridCycle::Full, g)?;
         for l in 0..top {
-            let (b, mut x) = (take(&mut levels[l].b), take(&mut levels[l].x));
-            begin(&mut levels[..=l], coarsest, SweepHalves::Forward, &b, &mut x, r)?;
+            let (mut b, mut x) = (take(&mut levels[l].b), take(&mut levels[l].x));
+            descent.begin(&mut levels[..=l], SweepHalves::Forward, (g, &mut p), &mut b, &mut x)?;
             (levels[l].b, levels[l].x) = (b, x);
         }
-        begin(levels, coarsest, SweepHalves::Both, b, x, r)
+        descent.begin(levels, SweepHalves::Both, (g, &mut p), b, x)
     }
 }
 
-/// A V-cycle from what the next coarser level has found. **Collective**
-fn begin(
-    levels: &mut [CycleLevel],
-    coarsest: &mut Coarsest,
-    before: SweepHalves,
-    b: &[[f64; 2]],
-    x: &mut [[f64; 2]],
-    r: &mut [[f64; 2]],
-) -> Result<()> {
-    let (level, below) = levels.split_last_mut().expect("a level");
-    match below.last() {
-        Some(below) => level.begin(&below.x, x),
-        None => coarsest.prolong::<false>(level, x)?,
-    }
-    level.relax(before, b, x);
-    correct(levels, coarsest, b, x, r)
+/// What V-cycles share, beside the levels.
+struct Descent<'a> {
+    coarsest: &'a mut Coarsest,
+    border: Option<&'a LevelBorder>,
+    r: &'a mut [[f64; 2]],
 }
 
-/// What follows the first sweep of a V-cycle on the last of these levels and those below. **Collective**
-fn correct(
-    levels: &mut [CycleLevel],
-    coarsest: &mut Coarsest,
-    b: &[[f64; 2]],
-    x: &mut [[f64; 2]],
-    r: &mut [[f64; 2]],
-) -> Result<()> {
-    let (level, below) = levels.split_last_mut().expect("a level");
-    if below.is_empty() {
-        coarsest.restrict_residual(level, [b, x], r)?;
-        coarsest.solve(MultigridCycle::V)?;
-        coarsest.prolong::<true>(level, x)?;
-    } else {
-        let last = below.len() - 1;
-        level.restrict_residual(b, x, r, &mut below[last].b);
-        let (next, mut correction) = (take(&mut below[last].b), take(&mut below[last].x));
-        below[last].relax_from_zero(&next, &mut correction);
-        correct(below, coarsest, &next, &mut correction, r)?;
-        (below[last].b, below[last].x) = (next, correction);
-        level.correct(&below[last].x, x);
+impl Descent<'_> {
+    /// Solves below the levels, with a right-hand side of the border; what was found of that. **Collective**
+    fn solve_below(&mut self, cycle: MultigridCycle, g: &[f64]) -> Result<Vec<f64>> {
+        self.coarsest.solve(cycle)?;
+        Ok(self.border.map_or_else(Vec::new, |border| self.coarsest.with_solution(|y| border.solve(g, y))))
     }
-    level.relax(SweepHalves::Both, b, x);
-    Ok(())
+
+    /// A V-cycle from what the next coarser level has found. **Collective**
+    fn begin(
+        &mut self,
+        levels: &mut [CycleLevel],
+        before: SweepHalves,
+        (g, p): (&[f64], &mut [f64]),
+        b: &mut [[f64; 2]],
+        x: &mut [[f64; 2]],
+    ) -> Result<()> {
+        let (level, below) = levels.split_last_mut().expect("a level");
+        match below.last() {
+            Some(below) => level.begin(&below.x, x),
+            None => self.coarsest.prolong::<false>(level, x)?,
+        }
+        if let Some(border) = self.border {
+            border.subtract(below.len(), p, b);
+        }
+        level.relax(before, b, x);
+        let mut left = g.to_vec();
+        if let Some(border) = self.border {
+            border.subtract_corner(p, &mut left);
+        }
+        let change = self.correct(levels, &left, b, x)?;
+        p.iter_mut().zip(change).for_each(|(p, change)| *p += change);
+        Ok(())
+    }
+
+    /// What follows the first sweep of a V-cycle on the last of these levels and those below; what is found of the border.
+    /// **Collective**
+    fn correct(&mut self, levels: &mut [CycleLevel], g: &[f64], b: &mut [[f64; 2]], x: &mut [[f64; 2]]) -> Result<Vec<f64>> {
+        let (level, below) = levels.split_last_mut().expect("a level");
+        let left = self.border.map_or_else(Vec::new, |border| border.left(below.len(), g, x));
+        let p = if below.is_empty() {
+            self.coarsest.restrict_residual(level, [b, x], self.r)?;
+            let p = self.solve_below(MultigridCycle::V, &left)?;
+            self.coarsest.prolong::<true>(level, x)?;
+            p
+        } else {
+            let last = below.len() - 1;
+            level.restrict_residual(b, x, self.r, &mut below[last].b);
+            let (mut next, mut correction) = (take(&mut below[last].b), take(&mut below[last].x));
+            below[last].relax_from_zero(&next, &mut correction);
+            let p = self.correct(below, &left, &mut next, &mut correction)?;
+            (below[last].b, below[last].x) = (next, correction);
+            level.correct(&below[last].x, x);
+            p
+        };
+        if let Some(border) = self.border {
+            border.subtract(below.len(), &p, b);
+        }
+        level.relax(SweepHalves::Both, b, x);
+        Ok(p)
+    }
 }
 
 /// A cycle, shared with the preconditioner of PETSc's that it stands behind.
@@ -155,9 +221,20 @@ impl Cycle {
         Ok(cycle.map(|cycle| Self(Rc::new(RefCell::new(cycle)))))
     }
 
-    /// `x = M⁻¹ b` for the unknowns of this rank. **Collective**
-    pub fn apply(&self, b: &[f64], x: &mut [f64]) -> Result<()> {
-        self.0.borrow_mut().apply(b.as_chunks().0, x.as_chunks_mut().0)
+    /// `x` of `[x; p] = M⁻¹ [b; g]` for the unknowns of this rank, with the unknowns `p` of a border if there is one; `b` is not
+    /// what it was then. **Collective**
+    pub fn apply(&self, b: &mut [f64], g: &[f64], x: &mut [f64]) -> Result<()> {
+        self.0.borrow_mut().apply(b.as_chunks_mut().0, g, x.as_chunks_mut().0)
+    }
+
+    /// How many unknowns beside the displacements there is room for.
+    pub fn room(&self) -> usize {
+        self.0.borrow().room
+    }
+
+    /// Takes over unknowns beside the displacements, for the present values of the stiffness. **Collective**
+    pub fn set_border(&self, border: Border, session: &Session) -> Result<()> {
+        self.0.borrow_mut().set_border(border, session)
     }
 
     /// What PETSc's preconditioner does.
@@ -176,6 +253,6 @@ struct CycleAction(Cycle);
 
 impl Action for CycleAction {
     fn apply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        self.0.apply(&x.values(), &mut y.values_mut())
+        self.0.apply(&mut x.values().to_vec(), &[], &mut y.values_mut())
     }
 }

@@ -2,9 +2,10 @@
 
 use super::border_blocks::{BorderBlocks, BorderColumn, BorderUnknown};
 use crate::discretisation::Form;
+use crate::multigrid::{Border, Sparse};
 use crate::petsc::{Matrix, Product, Result, Vector};
-use crate::system::rigid_border::{RigidComponent, Sparse};
-use nalgebra::DVector;
+use crate::system::rigid_border::RigidComponent;
+use nalgebra::{DMatrix, DVector};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -59,6 +60,39 @@ impl BorderBlocks {
             (all.motion[component], all.mean[component]) = (motion, mean);
         }
         all
+    }
+
+    /// What multipliers of this rank do to rows of unknowns. **Collective**
+    pub fn balances(&self, unknowns: &[BorderUnknown], lambda: &[f64]) -> Vec<f64> {
+        let row = |unknown: &BorderUnknown| match unknown {
+            BorderUnknown::Motion(j) => self.column(*j).map_or(0.0, |column| dot(&column.balance, lambda)),
+            BorderUnknown::Mean(_) => 0.0,
+        };
+        let mut sums: Vec<f64> = unknowns.iter().map(row).collect();
+        self.session.sum(&mut sums);
+        sums
+    }
+
+    fn column(&self, component: usize) -> Option<&BorderColumn> {
+        self.linked.binary_search(&component).ok().map(|at| &self.columns[at])
+    }
+
+    /// Unknowns beside the displacements, as the cycle takes them.
+    pub fn of(&self, unknowns: &[BorderUnknown]) -> Border {
+        let column = |unknown: &BorderUnknown| match unknown {
+            BorderUnknown::Motion(j) => self.column(*j).map(|column| column.forces.clone()),
+            BorderUnknown::Mean(j) => self.border.components[*j].mean.clone(),
+        };
+        let name = |unknown: &BorderUnknown| match unknown {
+            BorderUnknown::Motion(j) => 2 * j,
+            BorderUnknown::Mean(j) => 2 * j + 1,
+        };
+        Border {
+            names: unknowns.iter().map(name).collect(),
+            columns: unknowns.iter().map(|unknown| column(unknown).unwrap_or_default()).collect(),
+            corner: DMatrix::from_fn(unknowns.len(), unknowns.len(), |i, j| self.entry(unknowns[i], unknowns[j])),
+            scales: unknowns.iter().map(|&unknown| self.scale(unknown)).collect(),
+        }
     }
 
     /// `E⁻¹ r`: zero in what rigid sets cannot tell.

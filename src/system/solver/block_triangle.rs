@@ -2,12 +2,19 @@
 
 use crate::multigrid::Cycle;
 use crate::petsc::{Action, Krylov, Matrix, Result, Session, Vector, Window};
+use crate::system::saddle_point::{BorderBlocks, BorderUnknown};
 use std::cell::RefCell;
+use std::rc::Rc;
 
 /// The inverse of the upper triangle `[A B; 0 S]`, with the cycle for the inverse of `A` and PETSc's solver of the lower field for that of
-/// `S`. This is what fieldsplit does with the same parts.
+/// `S`. This is what fieldsplit does with the same parts. Rigid motions that are unknown belong to the upper field: the cycle finds
+/// them, too.
 pub struct BlockTriangle {
     cycle: Cycle,
+    /// Rigid motions that the cycle has been told of.
+    told: RefCell<Vec<BorderUnknown>>,
+    border: Option<Rc<RefCell<BorderBlocks>>>,
+    session: Session,
     lower: Krylov,
     coupling: Matrix,
     room: RefCell<Room>,
@@ -23,7 +30,13 @@ struct Room {
 
 impl BlockTriangle {
     /// From the solver of the lower field and the coupling `B`. **Collective**
-    pub fn new(cycle: Cycle, lower: Krylov, coupling: &Matrix, session: &Session) -> Result<Self> {
+    pub fn new(
+        cycle: &Cycle,
+        lower: Krylov,
+        coupling: &Matrix,
+        border: Option<Rc<RefCell<BorderBlocks>>>,
+        session: &Session,
+    ) -> Result<Rc<Self>> {
         let (rows, columns) = coupling.local_size();
         let room = Room {
             upper: Window::new(session, rows)?,
@@ -31,11 +44,24 @@ impl BlockTriangle {
             force: vec![0.0; rows],
             minus: vec![0.0; columns],
         };
-        Ok(Self { cycle, lower, coupling: coupling.share()?, room: RefCell::new(room) })
+        let (cycle, coupling, session) = (cycle.clone(), coupling.share()?, session.clone());
+        Ok(Rc::new(Self { cycle, told: RefCell::new(Vec::new()), border, session, lower, coupling, room: RefCell::new(room) }))
+    }
+
+    /// How many unknown rigid motions the cycle has room for.
+    pub fn room(&self) -> usize {
+        self.cycle.room()
+    }
+
+    /// Tells the cycle of unknowns of the border, those of before no longer. **Collective**
+    pub fn tell(&self, border: &BorderBlocks, unknowns: Vec<BorderUnknown>) -> Result<()> {
+        self.cycle.set_border(border.of(&unknowns), &self.session)?;
+        self.told.replace(unknowns);
+        Ok(())
     }
 }
 
-impl Action for BlockTriangle {
+impl Action for Rc<BlockTriangle> {
     fn apply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         let (x, mut y) = (x.values(), y.values_mut());
         let Room { upper, lower: [right, left], force, minus } = &mut *self.room.borrow_mut();
@@ -44,6 +70,9 @@ impl Action for BlockTriangle {
         minus.iter_mut().zip(&*lambda).for_each(|(minus, lambda)| *minus = -lambda);
         force.copy_from_slice(f);
         right.read(minus, |minus| upper.write(force, |force| self.coupling.multiply_add(minus, force)))?;
-        self.cycle.apply(force, u)
+        let told = self.told.borrow();
+        let border = self.border.as_ref().filter(|_| !told.is_empty());
+        let g = border.map_or_else(Vec::new, |border| border.borrow().balances(&told, minus));
+        self.cycle.apply(force, &g, u)
     }
 }

@@ -43,7 +43,7 @@ pub fn field_split(
     let block_triangle = match cycle.as_ref().filter(|_| !is_split_changed(session)) {
         Some(cycle) => {
             let lower = preconditioner.field_split_solvers()?.pop().expect("two fields");
-            Some(BlockTriangle::new(cycle.clone(), lower, &system.multipliers.transpose, session)?)
+            Some(BlockTriangle::new(cycle, lower, &system.multipliers.transpose, system.border.clone(), session)?)
         }
         None => None,
     };
@@ -113,7 +113,7 @@ fn levels(
 /// such. **Collective**
 pub(super) fn replace_action(
     krylov: &Krylov,
-    block_triangle: Option<BlockTriangle>,
+    block_triangle: Option<Rc<BlockTriangle>>,
     system: &SaddlePoint,
     form: Form,
     session: &Session,
@@ -124,8 +124,8 @@ pub(super) fn replace_action(
     };
     let mut bordered = None;
     let replaced = ReplacedAction::new(krylov.preconditioner(), |of_kind| {
-        let of_blocks = block_triangle.map_or(of_kind, |action| Box::new(action) as Box<dyn Action>);
-        let action = Bordered::new(of_blocks, border.clone(), form, session);
+        let of_blocks = block_triangle.clone().map_or(of_kind, |action| Box::new(action) as Box<dyn Action>);
+        let action = Bordered::new(of_blocks, block_triangle, border.clone(), form, session);
         bordered = Some(action.clone());
         Ok(Box::new(action))
     })?;

@@ -24,9 +24,9 @@ const LARGEST_FACTOR: usize = 3_000_000;
 /// Iterations after which a solve has failed.
 pub const MOST_ITERATIONS: usize = 300;
 
-/// Iterations to 1e-8 that may be due to rigid motions alone, where some are unknown: a stronger smoother does not save them. Fourteen
-/// discs, and a bearing whose rollers turn: up to 17 and 35; fifteen round triangles and squares whose turns are held: up to 64, with
-/// two steps of CG in the place of the sweep as many at three times the cost, and with a factor as many, too.
+/// Iterations to 1e-8 that may be due to rigid motions alone, where some are unknown and not found inside the cycle: a stronger
+/// smoother does not save them. Fifteen round triangles and squares whose turns are held, eight of them told to what stands around
+/// the cycle: up to 64, with two steps of CG in the place of the sweep as many at three times the cost, and with a factor as many, too.
 const OF_MOTIONS: usize = 90;
 
 /// One way to solve.

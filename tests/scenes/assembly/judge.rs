@@ -22,6 +22,9 @@ const FALLS: f64 = 0.2;
 /// some 3 F/E at half widths b of R/50.
 const OVERLAP: f64 = 0.45;
 
+/// Iterations of a solve to 1e-11, at most, however many mean motions are held.
+const ITERATIONS: u64 = 30;
+
 /// Whether an assembly has few bodies, eight at most.
 pub fn is_small(seed: &u64) -> bool {
     draw(&mut Lot::new(*seed)).members.len() <= 8
@@ -117,6 +120,11 @@ fn solved(ended: &Ended, assembly: &Assembly, forces: Option<&Vec<f64>>) -> Resu
     let balance = ended.number("/balance/bodies");
     if balance > BALANCE {
         return Err(format!("the bodies balance to {balance:.1e}"));
+    }
+    let iterations = ended.value("/solver/iterations");
+    let most = iterations.as_array().into_iter().flatten().filter_map(serde_json::Value::as_u64).max();
+    if most.is_none_or(|most| most > ITERATIONS) {
+        return Err(format!("a solve takes {most:?} iterations"));
     }
     let mut sums: Vec<[f64; 2]> = assembly.members.iter().map(|member| member.load).collect();
     let mut top = 0.0f64;

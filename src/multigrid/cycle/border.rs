@@ -1,0 +1,130 @@
+//! Unknowns beside the displacements, which the cycle finds with these: rigid motions, and the multipliers of means.
+//!
+//! ```text
+//! [ A   V ] [x]   [b]
+//! [ Vᵀ  E ] [p] = [g]
+//! ```
+//! They are alike on all levels, with `V` restricted as forces are. Sweeps leave `p` as it is. Below the levels that are swept it is
+//! found with `x`: where `C` is what solves there,
+//!
+//! ```text
+//! x = y - Z p,   y = C b,   p = Σ⁻¹ (g - Vᵀ y),   Z ≈ A⁻¹ V,   Σ = E - Vᵀ Z - Zᵀ (V - A Z)
+//! ```
+//! The last term of `Σ` makes its error that of `Z` squared.
+
+use crate::petsc::Session;
+use nalgebra::{DMatrix, DVector};
+
+/// Singular values of the scaled `Σ` below this share of the largest belong to motions that nothing resists.
+const NOTHING: f64 = 1e-13;
+
+/// Values at unknowns of this rank.
+pub type Sparse = Vec<(u32, f64)>;
+
+/// Unknowns beside the displacements.
+pub struct Border {
+    /// What tells the same unknown in another set.
+    pub names: Vec<usize>,
+    /// `V` on the finest level, by unknowns of the border; rows are this rank's displacement unknowns.
+    pub columns: Vec<Sparse>,
+    /// `E`.
+    pub corner: DMatrix<f64>,
+    /// What each is measured by: entries of `E` over those of their row and their column are alike.
+    pub scales: Vec<f64>,
+}
+
+/// The border on all levels of a cycle.
+pub struct LevelBorder {
+    session: Session,
+    names: Vec<usize>,
+    /// `V` by levels that are swept, the coarsest first.
+    pub levels: Vec<Vec<Sparse>>,
+    corner: DMatrix<f64>,
+    /// `V` and `Z` below these.
+    below: Vec<Sparse>,
+    responses: Vec<Vec<f64>>,
+    /// `Σ⁻¹`.
+    inverse: DMatrix<f64>,
+}
+
+impl LevelBorder {
+    /// From `V` on the levels below the finest one and below these, and `Z` with `V - A Z` there. **Collective**
+    pub fn new(
+        Border { names, columns, corner, scales }: Border,
+        mut levels: Vec<Vec<Sparse>>,
+        below: Vec<Sparse>,
+        found: Vec<[Vec<f64>; 2]>,
+        session: &Session,
+    ) -> Self {
+        levels.push(columns);
+        let count = scales.len();
+        let mut sums = DMatrix::zeros(count, count);
+        for (j, [response, _]) in found.iter().enumerate() {
+            below.iter().enumerate().for_each(|(i, column)| sums[(i, j)] = dot(column, response));
+            for (i, [_, left]) in found.iter().enumerate() {
+                sums[(j, i)] += response.iter().zip(left).map(|(z, r)| z * r).sum::<f64>();
+            }
+        }
+        session.sum(sums.as_mut_slice());
+        let inverse = scaled_inverse(&corner - sums, &scales);
+        let responses = found.into_iter().map(|[response, _]| response).collect();
+        Self { session: session.clone(), names, levels, corner, below, responses, inverse }
+    }
+
+    /// `Z` of an unknown, if it was in the border.
+    pub fn response(&self, name: usize) -> Option<&[f64]> {
+        self.names.iter().position(|&known| known == name).map(|at| &self.responses[at][..])
+    }
+
+    /// `g - Vᵀ x` on a level. **Collective**
+    pub fn left(&self, level: usize, g: &[f64], x: &[[f64; 2]]) -> Vec<f64> {
+        self.left_of(&self.levels[level], g, x.as_flattened())
+    }
+
+    fn left_of(&self, columns: &[Sparse], g: &[f64], x: &[f64]) -> Vec<f64> {
+        let mut left: Vec<f64> = columns.iter().map(|column| dot(column, x)).collect();
+        self.session.sum(&mut left);
+        left.iter_mut().zip(g).for_each(|(left, g)| *left = g - *left);
+        left
+    }
+
+    /// `g - E p`.
+    pub fn subtract_corner(&self, p: &[f64], g: &mut [f64]) {
+        let product = &self.corner * DVector::from_column_slice(p);
+        g.iter_mut().zip(product.iter()).for_each(|(g, product)| *g -= product);
+    }
+
+    /// `b - V p` on a level.
+    pub fn subtract(&self, level: usize, p: &[f64], b: &mut [[f64; 2]]) {
+        let b = b.as_flattened_mut();
+        for (column, p) in self.levels[level].iter().zip(p) {
+            column.iter().for_each(|&(at, value)| b[at as usize] -= p * value);
+        }
+    }
+
+    /// `p` of what has been found below the levels without it, which becomes what belongs to it. **Collective**
+    pub fn solve(&self, g: &[f64], y: &mut [f64]) -> Vec<f64> {
+        let p = &self.inverse * DVector::from_vec(self.left_of(&self.below, g, y));
+        for (response, p) in self.responses.iter().zip(p.iter()) {
+            y.iter_mut().zip(response).for_each(|(y, z)| *y -= p * z);
+        }
+        p.as_slice().to_vec()
+    }
+}
+
+/// Inverse of a Schur complement of unknowns with these scales; nothing of what nothing resists.
+pub fn scaled_inverse(schur: DMatrix<f64>, scales: &[f64]) -> DMatrix<f64> {
+    let over = |matrix: DMatrix<f64>| matrix.map_with_location(|i, j, entry| entry / (scales[i] * scales[j]));
+    let schur = over(schur);
+    let least = NOTHING * schur.amax();
+    over(schur.pseudo_inverse(least).unwrap_or_else(|_| DMatrix::zeros(scales.len(), scales.len())))
+}
+
+/// What of values is not zero.
+pub fn column_of(values: &[f64]) -> Sparse {
+    values.iter().enumerate().filter(|(_, value)| **value != 0.0).map(|(at, &value)| (at as u32, value)).collect()
+}
+
+fn dot(column: &Sparse, x: &[f64]) -> f64 {
+    column.iter().map(|&(at, value)| value * x[at as usize]).sum()
+}
