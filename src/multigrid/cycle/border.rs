@@ -4,7 +4,8 @@
 //! [ A   V ] [x]   [b]
 //! [ Vᵀ  E ] [p] = [g]
 //! ```
-//! They are alike on all levels, with `V` restricted as forces are. Sweeps leave `p` as it is. Below the levels that are swept it is
+//! `p` and `E` are those of all levels, and `V`, of displacements alone, is restricted as forces are; what multipliers of contact do to
+//! its rows is in `g`. Sweeps leave `p` as it is. Below the levels that are swept it is
 //! found with `x`: where `C` is what solves there,
 //!
 //! ```text
@@ -60,7 +61,7 @@ impl LevelBorder {
         let count = scales.len();
         let mut sums = DMatrix::zeros(count, count);
         for (j, [response, _]) in found.iter().enumerate() {
-            below.iter().enumerate().for_each(|(i, column)| sums[(i, j)] = dot(column, response));
+            below.iter().enumerate().for_each(|(i, column)| sums[(i, j)] += dot(column, response));
             for (i, [_, left]) in found.iter().enumerate() {
                 sums[(j, i)] += response.iter().zip(left).map(|(z, r)| z * r).sum::<f64>();
             }
@@ -114,6 +115,9 @@ impl LevelBorder {
 
 /// Inverse of a Schur complement of unknowns with these scales; nothing of what nothing resists.
 pub fn scaled_inverse(schur: DMatrix<f64>, scales: &[f64]) -> DMatrix<f64> {
+    if scales.is_empty() {
+        return schur;
+    }
     let over = |matrix: DMatrix<f64>| matrix.map_with_location(|i, j, entry| entry / (scales[i] * scales[j]));
     let schur = over(schur);
     let least = NOTHING * schur.amax();

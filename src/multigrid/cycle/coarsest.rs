@@ -1,5 +1,5 @@
 //! What solves below the lowest level that the cycle sweeps: a factor on the one rank that has all of the coarsest level of the
-//! mesh, or where the macro mesh is large, auxiliary levels.
+//! mesh, or where the macro mesh is large, auxiliary levels; a factor that all ranks make where none of these would be smaller.
 
 use super::level::CycleLevel;
 use crate::multigrid::interpolation::Interpolation;
@@ -14,8 +14,9 @@ const PREFIX: &str = "fieldsplit_u_";
 /// Prefix of the options of the coarsest solver alone.
 const COARSE_PREFIX: &str = "fieldsplit_u_mg_coarse_";
 
-/// Cycles on auxiliary levels for what a force does, at most, and the relative residual that is enough.
-const MOST_CYCLES: usize = 10;
+/// Cycles on auxiliary levels for what a force does, at most, and the relative residual that is enough: with 1e-2 and with .3 in its
+/// place, 84 and 68 cycles on the finest mesh of two assemblies stay what they are.
+const MOST_CYCLES: usize = 4;
 const ENOUGH: f64 = 0.1;
 
 /// The solver below the levels that are swept.
@@ -28,7 +29,7 @@ pub enum Coarsest {
 
 /// A solver on auxiliary levels.
 pub struct AuxiliarySolver {
-    /// A cycle of PETSc's multigrid, or where there is one such level, a factor.
+    /// A cycle of PETSc's multigrid; where there is one such level, or the level is the coarsest of the mesh, a factor.
     solver: Krylov,
     is_cycle: bool,
     /// All interpolations, of which this one leads up from the levels here.
@@ -177,6 +178,10 @@ impl AuxiliarySolver {
         if left > whole {
             z.set(0.0)?;
             r.copy_from(b)?;
+            left = whole;
+        }
+        if self.is_cycle {
+            solver.preconditioner().set_cycle(MultigridCycle::V)?;
         }
         for _ in 0..MOST_CYCLES {
             if left <= ENOUGH * whole {
@@ -185,7 +190,13 @@ impl AuxiliarySolver {
             solver.apply(&r, &mut change)?;
             z.axpy(1.0, &change)?;
             operator.residual(b, &z, &mut r)?;
-            left = r.norm()?;
+            let now = r.norm()?;
+            if now >= left {
+                z.axpy(-1.0, &change)?;
+                operator.residual(b, &z, &mut r)?;
+                break;
+            }
+            left = now;
         }
         Ok([z.values().to_vec(), r.values().to_vec()])
     }

@@ -93,8 +93,9 @@ impl FullCycle {
             let mut forces = take(&mut self.r);
             forces.fill([0.0; 2]);
             column.iter().for_each(|&(at, value)| forces.as_flattened_mut()[at as usize] += value);
-            self.restrict(&forces[..self.levels[top].nodes])?;
+            let restricted = self.restrict(&forces[..self.levels[top].nodes]);
             self.r = forces;
+            restricted?;
             lower.iter_mut().zip(&self.levels).for_each(|(columns, level)| columns.push(column_of(level.b.as_flattened())));
             below.push(self.coarsest.with_forces(column_of));
             responses.push(self.coarsest.response(before.as_ref().and_then(|before| before.response(name)))?);
@@ -120,12 +121,12 @@ impl FullCycle {
         Ok(())
     }
 
-    /// `x` of `[x; p] = M⁻¹ [b; g]` for the nodes of this rank; `g` is as long as the border, and `b` changes. **Collective**
+    /// `x` of `[x; p] = M⁻¹ [b; g]` for the nodes of this rank; without the border if `g` is empty. `b` changes. **Collective**
     fn apply(&mut self, b: &mut [[f64; 2]], g: &[f64], x: &mut [[f64; 2]]) -> Result<()> {
         self.restrict(b)?;
         let Self { coarsest, levels, border, r, .. } = self;
         let top = levels.len() - 1;
-        let mut descent = Descent { coarsest, border: border.as_ref(), r };
+        let mut descent = Descent { coarsest, border: border.as_ref().filter(|_| !g.is_empty()), r };
         let mut p = descent.solve_below(MultigridCycle::Full, g)?;
         for l in 0..top {
             let (mut b, mut x) = (take(&mut levels[l].b), take(&mut levels[l].x));

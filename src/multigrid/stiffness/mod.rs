@@ -58,7 +58,8 @@
 //! factor (`cycle/coarsest.rs`). All messages go from neighbour to neighbour, and are under way while strips, or the first sides of a
 //! sweep, are worked on. The product of the saddle point is a shell, too (`nest_product`): PETSc's nest finds the parts of its
 //! vectors by a sum over all ranks, four in each product. So an iteration of GMRES has two sums over all ranks for its inner
-//! products (one of BiCGStab four, for two cycles), and no other collective; `tests/messages.rs` counts them.
+//! products (one of BiCGStab four, for two cycles), and no other collective; `tests/messages.rs` counts them. Only where the cycle
+//! finds rigid motions, too, each visit of a level has one.
 //!
 //! Any option of the user's that begins with `-fieldsplit_u_` brings PETSc's own multigrid back, on the same levels, as do
 //! stronger smoothers that a slow solve falls back on. Then PETSc sees a level as a shell (`petsc::Operator`): product, residual,

@@ -11,7 +11,7 @@ use std::rc::Rc;
 /// them, too.
 pub struct BlockTriangle {
     cycle: Cycle,
-    /// Rigid motions that the cycle has been told of.
+    /// Rigid motions, and multipliers of means, that the cycle has been told of.
     told: RefCell<Vec<BorderUnknown>>,
     border: Option<Rc<RefCell<BorderBlocks>>>,
     session: Session,
@@ -48,7 +48,7 @@ impl BlockTriangle {
         Ok(Rc::new(Self { cycle, told: RefCell::new(Vec::new()), border, session, lower, coupling, room: RefCell::new(room) }))
     }
 
-    /// How many unknown rigid motions the cycle has room for.
+    /// How many of these the cycle has room for.
     pub fn room(&self) -> usize {
         self.cycle.room()
     }

@@ -8,7 +8,7 @@
 //! ```
 //! `V` is without its gaps where `P` is a block triangle: motions are displacements, which it eliminates before the multipliers.
 //! The last term of `Σ` makes its error that of `Z` squared. Held means that contact hardly resists are left out: a system with them
-//! is that of the blocks. More than a few of them the cycle of a block triangle finds with the displacements instead
+//! is that of the blocks. More than a few motions and means the cycle of a block triangle finds with the displacements instead
 //! (`multigrid/cycle/border.rs`).
 
 use super::block_triangle::BlockTriangle;
@@ -33,12 +33,13 @@ const MOST_HELD: usize = 8;
 /// 12 and 13 iterations instead of 15 and 16, in as much time.
 const FEW: usize = 2;
 
-/// The same stiffness as `RESISTED`, of held means that are found in the cycle. Two assemblies of 25 bodies (all cycles of a run):
-/// 84 and 68 at 1e-3; 88 and 82 at 1e-2; 103 and 114 at 1e-1.
-const RESISTED_INSIDE: f64 = 1e-3;
+/// The same stiffness as `RESISTED`, of held means that are found in the cycle. Two assemblies of 20 and 25 bodies that are not round
+/// (all cycles of a run): 68 and 97 at 1e-3; 81 and 101 at 1e-2; 270 and 123 at 1e-1.
+const RESISTED_INSIDE: f64 = 1e-2;
 
-/// Held means that are found in the cycle at most: their Schur complement is dense.
-const MOST_INSIDE: usize = 64;
+/// Unknowns that are found in the cycle at most; of more, none: 105 discs, whose turns their meshes resist a little, take twice as long
+/// if 64 turns are found there.
+const MOST_INSIDE: usize = 128;
 
 /// Cycles for a column of `Z`, at most, and the relative residual that is enough.
 const MOST_CYCLES: usize = 4;
@@ -57,7 +58,7 @@ pub struct Bordered {
     session: Session,
     /// What belongs to a set; nothing until somebody has asked for it.
     of_set: RefCell<Option<OfSet>>,
-    /// Whether that is another set.
+    /// Whether that is another set, or not prepared yet.
     is_stale: Cell<bool>,
 }
 
@@ -96,11 +97,10 @@ impl Bordered {
     /// **Collective**
     pub fn prepare(&self, system: &SaddlePoint) -> Result<()> {
         let border = self.border.borrow();
-        self.is_stale.set(false);
         let unknowns = match &self.triangle {
             Some(triangle) => {
-                let inside = border.resisted(RESISTED_INSIDE, MOST_INSIDE.min(triangle.room() / 2));
-                let is_inside = inside.len() > FEW;
+                let inside = border.resisted(RESISTED_INSIDE, usize::MAX);
+                let is_inside = (FEW + 1..=triangle.room().min(MOST_INSIDE)).contains(&inside.len());
                 triangle.tell(&border, if is_inside { inside } else { Vec::new() })?;
                 if is_inside { Vec::new() } else { border.resisted(RESISTED, MOST_HELD) }
             }
@@ -113,10 +113,6 @@ impl Bordered {
             residuals.push(r);
         }
         let count = unknowns.len();
-        if count == 0 {
-            self.of_set.replace(Some(OfSet { unknowns, responses, inverse: DMatrix::zeros(0, 0) }));
-            return Ok(());
-        }
         let mut works = vec![0.0; count * count];
         for (i, z) in responses.iter().enumerate() {
             for (j, r) in residuals.iter().enumerate() {
@@ -134,6 +130,7 @@ impl Bordered {
         let scales: Vec<f64> = unknowns.iter().map(|&unknown| border.scale(unknown)).collect();
         let inverse = scaled_inverse(schur, &scales);
         self.of_set.replace(Some(OfSet { unknowns, responses, inverse }));
+        self.is_stale.set(false);
         Ok(())
     }
 
