@@ -54,7 +54,8 @@ fn overlap(a: [Point; 3], b: [Point; 3]) -> bool {
 }
 
 /// Squares that the strip marks for each triangle of the mesh at most, and that it looks at for one. The box of an equilateral
-/// triangle is 1.5 squares wide and 1.3 high in a mesh of its like, so that it meets 6 of them in the mean, and 9 at most. Without the bound the work would be quadratic for bands of long thin ones.
+/// triangle is 1.5 squares wide and 1.3 high in a mesh of its like, so that it meets 6 of them in the mean, and 9 at most. Without the
+/// bound the work would be quadratic for bands of long thin ones.
 const MOST_MARKS: usize = 16;
 
 /// The strip along all boundaries, in squares of one grid, as many as the mesh has triangles: most triangles lie away from it.

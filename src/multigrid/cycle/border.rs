@@ -5,8 +5,7 @@
 //! [ Vᵀ  E ] [p] = [g]
 //! ```
 //! `p` and `E` are those of all levels, and `V`, of displacements alone, is restricted as forces are; what multipliers of contact do to
-//! its rows is in `g`. Sweeps leave `p` as it is. Below the levels that are swept it is
-//! found with `x`: where `C` is what solves there,
+//! its rows is in `g`. Sweeps leave `p` as it is. Below the levels that are swept it is found with `x`: where `C` is what solves there,
 //!
 //! ```text
 //! x = y - Z p,   y = C b,   p = Σ⁻¹ (g - Vᵀ y),   Z ≈ A⁻¹ V,   Σ = E - Vᵀ Z - Zᵀ (V - A Z)
@@ -19,7 +18,7 @@ use nalgebra::{DMatrix, DVector};
 /// Singular values of the scaled `Σ` below this share of the largest belong to motions that nothing resists.
 const NOTHING: f64 = 1e-13;
 
-/// Values at unknowns of this rank.
+/// Values at displacement unknowns of this rank, by their places.
 pub type Sparse = Vec<(u32, f64)>;
 
 /// Unknowns beside the displacements.
@@ -39,7 +38,7 @@ pub struct LevelBorder {
     session: Session,
     names: Vec<usize>,
     /// `V` by levels that are swept, the coarsest first.
-    pub levels: Vec<Vec<Sparse>>,
+    levels: Vec<Vec<Sparse>>,
     corner: DMatrix<f64>,
     /// `V` and `Z` below these.
     below: Vec<Sparse>,

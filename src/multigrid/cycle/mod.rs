@@ -2,7 +2,7 @@
 //! on nothing of PETSc's but what solves on the coarsest level.
 //!
 //! Levels with few unknowns have been brought together on fewer ranks, the small ones on one: from the first of these downwards
-//! nothing is sent, unless there are auxiliary levels, and the other ranks wait. Where options of the user's ask for another
+//! nothing is sent, unless there are auxiliary levels or rigid motions to be found, and the other ranks wait. Where options of the user's ask for another
 //! smoother, cycle or coarse solver, and where solves fall back on stronger smoothers, PETSc's own multigrid stands in its place
 //! (`system/solver`).
 
@@ -24,7 +24,7 @@ use std::mem::take;
 use std::rc::Rc;
 
 /// Vectors of the finest level that take as much room as what a cycle keeps of unknowns beside the displacements, on what is below
-/// the levels that are swept.
+/// the levels that are swept: as many as two for each of the eight held means that may be found around the cycle.
 const ROOM: usize = 16;
 
 /// Full multigrid: on each level, from the coarsest one up, a V-cycle with one Gauss-Seidel sweep before and one after the coarse
@@ -44,8 +44,7 @@ pub struct FullCycle {
 
 impl FullCycle {
     /// On the levels of a stiffness; `levels` are those of PETSc's multigrid, with auxiliary ones below these. `None` if there is
-    /// nothing to sweep, or if options want entries of interpolations.
-    /// **Collective**
+    /// nothing to sweep, or if options want entries of interpolations. **Collective**
     fn new(
         stiffness: &[Stiffness],
         interpolations: &Rc<[Interpolation]>,

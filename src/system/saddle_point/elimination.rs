@@ -78,7 +78,7 @@ impl BorderBlocks {
     }
 
     /// Unknowns beside the displacements, as the cycle takes them.
-    pub fn of(&self, unknowns: &[BorderUnknown]) -> Border {
+    pub fn for_cycle(&self, unknowns: &[BorderUnknown]) -> Border {
         let column = |unknown: &BorderUnknown| match unknown {
             BorderUnknown::Motion(j) => self.column(*j).map(|column| column.forces.clone()),
             BorderUnknown::Mean(j) => self.border.components[*j].mean.clone(),

@@ -8,7 +8,7 @@ use std::rc::Rc;
 
 /// The inverse of the upper triangle `[A B; 0 S]`, with the cycle for the inverse of `A` and PETSc's solver of the lower field for that of
 /// `S`. This is what fieldsplit does with the same parts. Rigid motions that are unknown belong to the upper field: the cycle finds
-/// them, too.
+/// those that it is told of.
 pub struct BlockTriangle {
     cycle: Cycle,
     /// Rigid motions, and multipliers of means, that the cycle has been told of.
@@ -55,7 +55,7 @@ impl BlockTriangle {
 
     /// Tells the cycle of unknowns of the border, those of before no longer. **Collective**
     pub fn tell(&self, border: &BorderBlocks, unknowns: Vec<BorderUnknown>) -> Result<()> {
-        self.cycle.set_border(border.of(&unknowns), &self.session)?;
+        self.cycle.set_border(border.for_cycle(&unknowns), &self.session)?;
         self.told.replace(unknowns);
         Ok(())
     }

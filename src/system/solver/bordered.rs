@@ -38,7 +38,7 @@ const FEW: usize = 2;
 const RESISTED_INSIDE: f64 = 1e-2;
 
 /// Unknowns that are found in the cycle at most; of more, none: 105 discs, whose turns their meshes resist a little, take twice as long
-/// if 64 turns are found there.
+/// (80 s instead of 40) if 64 turns are found there.
 const MOST_INSIDE: usize = 128;
 
 /// Cycles for a column of `Z`, at most, and the relative residual that is enough.

@@ -37,9 +37,9 @@
 //!   2/(1 + sin α)), one more sweep of the sides, γ at 5, a pentadiagonal S⁻¹: each by itself saves one of fourteen iterations
 //!   to 1e-12, or none.
 //! - **unknown rigid motions, and multipliers of held means, are unknowns of the cycle (`multigrid/cycle/border.rs`)**: sweeps
-//!   leave them as they are, and what solves below the levels finds them. 25 bodies that are not round, turns held, one rank, to
-//!   1e-11: all solves on the finest mesh 69 iterations instead of 249, the run 8 s instead of 28. Two such unknowns or less are
-//!   found around the cycle (`bordered.rs`), as beside other preconditioners.
+//!   leave them as they are, and what solves below the levels finds them. 20 bodies, half of them not round, turns held, one rank,
+//!   to 1e-11: all solves on the finest mesh 73 iterations instead of 251, the run 7 s instead of 28. Two such unknowns or less, and
+//!   more than 128, are left to what stands around the cycle (`bordered.rs`), as beside other preconditioners.
 //! - **fine segments on every level: B_l = B_{l+1} P_{l+1}**: the F-cycle needs the variational property; aggregated ones stall
 //!   or diverge once γ is 3 to 10 times as large, depending on the space.
 //! - **multipliers scaled by E_c/H_i**: without, GMRES reports 1e-8 while the plain system is at 5.6e-6.
