@@ -279,7 +279,7 @@ impl<'a> System<'a> {
     /// `K + Bᵀ D B` on the levels that the solver uses, coarsest first, auxiliary ones among them. **Collective**
     pub fn levels(&mut self) -> Result<Vec<&Matrix>, SystemError> {
         self.bring_solver_up_to_date()?;
-        Ok(self.solver.auxiliary_operators(&self.blocks)?.chain(self.blocks.stiffness.iter().map(Stiffness::operator)).collect())
+        Ok(self.solver.auxiliary_levels(&self.blocks)?.chain(&self.blocks.stiffness).map(Stiffness::operator).collect())
     }
 
     /// What preconditions the displacements.

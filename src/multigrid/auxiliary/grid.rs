@@ -64,18 +64,16 @@ impl<'a> Grid<'a> {
         let mut vertices = vec![0; self.mesh.vertices.len()];
         (0..vertices.len()).for_each(|vertex| vertices[numbering.vertex(vertex as u32)] = vertex);
         let node = |(number, vertex): (usize, usize)| {
-            let constraint = space.constraints.get(number);
-            let fixed = constraint.map_or([false; 2], |constraint| constraint.fixed);
+            let fixed = space.constraints.get(number).map_or([false; 2], |constraint| constraint.fixed);
             LevelNode {
                 body: self.bodies[vertex],
                 at: self.place(vertex),
                 axes: AXES.map(|axis| space.to_global(number, axis)),
-                unknowns: [0, 1].map(|k| (!fixed[k]).then_some(2 * number + k)),
+                is_free: fixed.map(|is_fixed| !is_fixed),
             }
         };
-        let first: Vec<usize> = (0..ranks).map(|rank| numbering.range(rank).start).chain([numbering.node_count()]).collect();
-        let unknowns = first.iter().map(|node| 2 * node).collect();
-        LevelNodes { all: vertices.into_iter().enumerate().map(node).collect(), first, unknowns }
+        let first = (0..ranks).map(|rank| numbering.range(rank).start).chain([numbering.node_count()]).collect();
+        LevelNodes { all: vertices.into_iter().enumerate().map(node).collect(), first }
     }
 }
 

@@ -1,9 +1,10 @@
 //! Levels of functions on quadtrees below the nodes of a mesh: who owns which, and their values on the next finer level.
 
 use super::tree::{Tree, Vertex};
+use crate::element::Block;
 use crate::geometry::Point;
 use crate::mesh::middle_of_group;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 
 /// A component of a coarse node is left out if the squares of its values at all finer nodes add up to no more than this.
@@ -21,49 +22,49 @@ pub struct LevelNode {
     pub at: [f64; 2],
     /// Directions of its two components.
     pub axes: [Point; 2],
-    /// Numbers of its unknowns; none where nothing moves.
-    pub unknowns: [Option<usize>; 2],
+    /// Which of them move.
+    pub is_free: [bool; 2],
 }
 
 impl LevelNode {
-    /// Its unknowns with their directions.
-    pub fn components(&self) -> impl Iterator<Item = (usize, Point)> {
-        [0, 1].into_iter().filter_map(|k| Some((self.unknowns[k]?, self.axes[k])))
+    /// What it takes over of a motion: rows are its components.
+    fn frame(&self) -> Block {
+        [0, 1].map(|k| if self.is_free[k] { [self.axes[k].x, self.axes[k].y] } else { [0.0; 2] })
+    }
+
+    fn is_plain(&self) -> bool {
+        self.is_free == [true; 2] && self.axes == AXES
     }
 }
 
-/// The nodes of a level, in the order of their unknowns.
+/// The nodes of a level, rank after rank.
 #[derive(Clone, Debug)]
 pub struct LevelNodes {
     /// All nodes.
     pub all: Vec<LevelNode>,
     /// First node of each rank, and the end.
     pub first: Vec<usize>,
-    /// First unknown of each rank, and the end.
-    pub unknowns: Vec<usize>,
 }
 
 impl LevelNodes {
-    /// Unknowns of a rank.
+    /// Nodes of a rank.
     pub fn own(&self, rank: usize) -> Range<usize> {
-        self.unknowns[rank]..self.unknowns[rank + 1]
+        self.first[rank]..self.first[rank + 1]
+    }
+
+    /// The rank of a node.
+    pub fn owner(&self, node: usize) -> usize {
+        self.first.partition_point(|&first| first <= node) - 1
     }
 
     /// Gives all nodes of each `group` ranks with consecutive numbers to the middle one.
     pub fn bring_together(&mut self, group: usize) {
         let ranks = self.first.len() - 1;
-        for starts in [&mut self.first, &mut self.unknowns] {
-            for rank in 1..ranks {
-                let begin = rank / group * group;
-                let has_had_all = rank > middle_of_group(rank, group, ranks);
-                starts[rank] = starts[if has_had_all { (begin + group).min(ranks) } else { begin }];
-            }
+        for rank in 1..ranks {
+            let begin = rank / group * group;
+            let has_had_all = rank > middle_of_group(rank, group, ranks);
+            self.first[rank] = self.first[if has_had_all { (begin + group).min(ranks) } else { begin }];
         }
-    }
-
-    /// Unknowns of all ranks.
-    pub fn count(&self) -> usize {
-        self.unknowns[self.unknowns.len() - 1]
     }
 }
 
@@ -72,73 +73,78 @@ pub struct Coarsening {
     /// The coarse nodes.
     pub coarse: LevelNodes,
     /// Coarse nodes with their values at finer ones, in compressed rows.
-    entries: Vec<(u32, f64)>,
-    offsets: Vec<usize>,
+    columns: Vec<u32>,
+    values: Vec<f64>,
+    offsets: Vec<u32>,
+    /// Finer nodes whose components are turned, or do not move: what they take over of a motion.
+    frames: BTreeMap<u32, Block>,
 }
 
 impl Coarsening {
     /// From nodes to the functions of the trees, one for each body. A function belongs to the rank of the first node that
-    /// it is not zero at, and has its number in the order of these.
+    /// it is not zero at, and has its number in the order of these. Nodes that do not move at all take nothing over.
     pub fn new(fine: &LevelNodes, trees: &[Tree]) -> Self {
         let mut numbers: HashMap<(usize, Vertex), u32> = HashMap::new();
-        let mut coarse = LevelNodes { all: Vec::new(), first: vec![0], unknowns: vec![0] };
-        let (mut entries, mut offsets) = (Vec::with_capacity(4 * fine.all.len()), vec![0]);
+        let mut coarse = LevelNodes { all: Vec::new(), first: vec![0] };
+        let (mut columns, mut all_values, mut offsets) = (Vec::new(), Vec::with_capacity(4 * fine.all.len()), vec![0]);
         for ends in fine.first.windows(2) {
             for node in &fine.all[ends[0]..ends[1]] {
-                for (vertex, value) in trees[node.body].function_values(node.at) {
+                let values = if node.is_free == [false; 2] { Vec::new() } else { trees[node.body].function_values(node.at) };
+                for (vertex, value) in values {
                     let number = *numbers.entry((node.body, vertex)).or_insert_with(|| {
                         let at = vertex.map(f64::from);
-                        coarse.all.push(LevelNode { body: node.body, at, axes: AXES, unknowns: [None; 2] });
+                        coarse.all.push(LevelNode { body: node.body, at, axes: AXES, is_free: [true; 2] });
                         coarse.all.len() as u32 - 1
                     });
-                    entries.push((number, value));
+                    columns.push(number);
+                    all_values.push(value);
                 }
-                offsets.push(entries.len());
+                offsets.push(columns.len() as u32);
             }
             coarse.first.push(coarse.all.len());
         }
-        let mut coarsening = Self { coarse, entries, offsets };
-        coarsening.number(fine);
+        let turned = fine.all.iter().enumerate().filter(|(_, node)| !node.is_plain());
+        let frames = turned.map(|(at, node)| (at as u32, node.frame())).collect();
+        let mut coarsening = Self { coarse, columns, values: all_values, offsets, frames };
+        coarsening.leave_out(fine);
         coarsening
     }
 
-    /// Coarse unknowns that move a component of a finer node, each with its weight: the function's value there, times the cosine
-    /// between the two directions.
-    pub fn row(&self, node: usize, axis: Point) -> impl Iterator<Item = (usize, f64)> {
-        self.values(node).iter().flat_map(move |&(number, value)| {
-            let components = self.coarse.all[number as usize].components();
-            components
-                .map(move |(unknown, direction)| (unknown, value * axis.dot(&direction)))
-                .filter(|(_, weight)| *weight != 0.0)
-        })
+    /// Functions that are not zero at a finer node, with their values there.
+    pub fn row(&self, node: usize) -> impl Iterator<Item = (u32, f64)> + Clone {
+        let places = self.offsets[node] as usize..self.offsets[node + 1] as usize;
+        self.columns[places.clone()].iter().copied().zip(self.values[places].iter().copied())
     }
 
-    fn values(&self, node: usize) -> &[(u32, f64)] {
-        &self.entries[self.offsets[node]..self.offsets[node + 1]]
+    /// What a finer node takes over of a motion, if that is not all of it in the axes of the plane.
+    pub fn frame(&self, node: usize) -> Option<&Block> {
+        self.frames.get(&(node as u32))
     }
 
-    /// Numbers the components of the coarse nodes that move some unknown of the finer level. A function of which only a small
-    /// part lies in its body is kept, too: without it the level would not contain linear motions up to the boundary.
-    fn number(&mut self, fine: &LevelNodes) {
+    /// What finer node `node` takes over of coarse node `parent`, whose function is 1 there, if that is not all of it.
+    pub fn turned(&self, node: usize, parent: u32) -> Option<Block> {
+        let (frame, free) = (self.frame(node), self.coarse.all[parent as usize].is_free);
+        if frame.is_none() && free == [true; 2] {
+            return None;
+        }
+        let frame = frame.copied().unwrap_or([[1.0, 0.0], [0.0, 1.0]]);
+        Some(frame.map(|row| [0, 1].map(|k| if free[k] { row[k] } else { 0.0 })))
+    }
+
+    /// Leaves components of the coarse nodes out that move no unknown of the finer level. A function of which only a small
+    /// part lies in its body is kept: without it the level would not contain linear motions up to the boundary.
+    fn leave_out(&mut self, fine: &LevelNodes) {
         let mut squares = vec![[0.0; 2]; self.coarse.all.len()];
-        for (at, node) in fine.all.iter().enumerate() {
-            for (_, axis) in node.components() {
-                for &(number, value) in self.values(at) {
-                    let [x, y] = &mut squares[number as usize];
-                    (*x, *y) = (*x + (value * axis.x).powi(2), *y + (value * axis.y).powi(2));
+        for at in 0..fine.all.len() {
+            let frame = self.frame(at).copied().unwrap_or([[1.0, 0.0], [0.0, 1.0]]);
+            for (number, value) in self.row(at) {
+                for axis in frame {
+                    (0..2).for_each(|k| squares[number as usize][k] += (value * axis[k]).powi(2));
                 }
             }
         }
-        let mut next = 0;
-        let LevelNodes { all, first, unknowns } = &mut self.coarse;
-        for ends in first.windows(2) {
-            for (node, squares) in all[ends[0]..ends[1]].iter_mut().zip(&squares[ends[0]..ends[1]]) {
-                for k in (0..2).filter(|&k| squares[k] > NOTHING) {
-                    node.unknowns[k] = Some(next);
-                    next += 1;
-                }
-            }
-            unknowns.push(next);
+        for (node, squares) in self.coarse.all.iter_mut().zip(squares) {
+            node.is_free = squares.map(|sum| sum > NOTHING);
         }
     }
 }
@@ -159,15 +165,10 @@ mod tests {
             let (sin, cos) = if s == 0.0 { 0.4f64.sin_cos() } else { (0.0, 1.0) };
             let body = usize::from(t > 0.5);
             let fixed = [s == 0.0, s == 0.0 && body == 1];
-            let unknowns = [0, 1].map(|c| (!fixed[c]).then_some(2 * k as usize + c));
-            all.push(LevelNode {
-                body,
-                at: [64.0 * s * s, 32.0 * t],
-                axes: [Point::new(cos, sin), Point::new(-sin, cos)],
-                unknowns,
-            });
+            let axes = [Point::new(cos, sin), Point::new(-sin, cos)];
+            all.push(LevelNode { body, at: [64.0 * s * s, 32.0 * t], axes, is_free: fixed.map(|is_fixed| !is_fixed) });
         }
-        LevelNodes { all, first: vec![0, 300, 700, 1200], unknowns: vec![0, 600, 1400, 2400] }
+        LevelNodes { all, first: vec![0, 300, 700, 1200] }
     }
 
     fn trees() -> Vec<Tree> {
@@ -199,52 +200,47 @@ mod tests {
         let coarsenings = coarsenings();
         assert!(coarsenings.len() > 3);
         for (fine, coarsening) in coarsenings {
-            let nodes = coarsening.coarse.all.iter().flat_map(|node| node.components().map(move |component| (component, node)));
-            let values: HashMap<usize, f64> = nodes.map(|((unknown, axis), node)| (unknown, axis.dot(&motion(node)))).collect();
             // Functions beside what is held may be without a component.
-            let whole = |(number, _): &(u32, f64)| coarsening.coarse.all[*number as usize].components().count() == 2;
-            let free: Vec<usize> = (0..fine.all.len()).filter(|&at| coarsening.values(at).iter().all(whole)).collect();
+            let is_whole = |number: u32| coarsening.coarse.all[number as usize].is_free == [true; 2];
+            let free: Vec<usize> = (0..fine.all.len()).filter(|&at| coarsening.row(at).all(|(number, _)| is_whole(number))).collect();
             assert!(2 * free.len() > fine.all.len());
-            for at in free {
-                for (_, axis) in fine.all[at].components() {
-                    let value: f64 = coarsening.row(at, axis).map(|(unknown, weight)| weight * values[&unknown]).sum();
-                    assert!((value - axis.dot(&motion(&fine.all[at]))).abs() < 1e-8, "{:?}", fine.all[at]);
+            for (at, node) in free.into_iter().map(|at| (at, &fine.all[at])) {
+                let mut taken = [0.0; 2];
+                for (number, value) in coarsening.row(at) {
+                    let (motion, frame) = (motion(&coarsening.coarse.all[number as usize]), coarsening.turned(at, number));
+                    let own = frame.map_or([motion.x, motion.y], |rows| rows.map(|[x, y]| x * motion.x + y * motion.y));
+                    (0..2).for_each(|k| taken[k] += value * own[k]);
+                }
+                for k in 0..2 {
+                    let own = if node.is_free[k] { node.axes[k].dot(&motion(node)) } else { 0.0 };
+                    assert!((taken[k] - own).abs() < 1e-8, "{node:?}: {taken:?}");
                 }
             }
         }
     }
 
     #[test]
-    fn unknowns_are_numbered_through_by_rank_and_all_move_something() {
+    fn every_function_moves_something_and_lies_on_the_rank_of_the_first_node_there() {
         for (fine, coarsening) in coarsenings() {
-            let numbers: Vec<usize> =
-                coarsening.coarse.all.iter().flat_map(|node| node.components().map(|(unknown, _)| unknown)).collect();
-            assert_eq!(numbers, (0..coarsening.coarse.count()).collect::<Vec<_>>());
-            let mut first = vec![usize::MAX; numbers.len()];
-            for (at, node) in fine.all.iter().enumerate() {
-                for (_, axis) in node.components() {
-                    coarsening.row(at, axis).for_each(|(unknown, _)| first[unknown] = first[unknown].min(at));
-                }
+            let mut first = vec![usize::MAX; coarsening.coarse.all.len()];
+            for at in (0..fine.all.len()).rev() {
+                coarsening.row(at).for_each(|(number, _)| first[number as usize] = at);
             }
-            let rank = |ends: &[usize], at: usize| ends.partition_point(|&end| end <= at);
-            for (unknown, &at) in first.iter().enumerate() {
-                assert!(at < usize::MAX && rank(&fine.first, at) >= rank(&coarsening.coarse.unknowns, unknown), "{unknown}");
+            for (number, &at) in first.iter().enumerate() {
+                assert!(at < usize::MAX && fine.owner(at) == coarsening.coarse.owner(number), "{number}");
             }
         }
     }
 
     #[test]
     fn one_of_each_group_of_ranks_has_what_all_of_them_had() {
-        let start = LevelNodes { all: Vec::new(), first: vec![0, 3, 4, 9, 11, 12], unknowns: vec![0, 5, 8, 17, 20, 24] };
-        for (group, first, unknowns) in [
-            (1, [0, 3, 4, 9, 11, 12], [0, 5, 8, 17, 20, 24]),
-            (2, [0, 4, 4, 11, 11, 12], [0, 8, 8, 20, 20, 24]),
-            (4, [0, 0, 11, 11, 11, 12], [0, 0, 20, 20, 20, 24]),
-            (8, [0, 0, 0, 0, 12, 12], [0, 0, 0, 0, 24, 24]),
-        ] {
+        let start = LevelNodes { all: Vec::new(), first: vec![0, 3, 4, 9, 11, 12] };
+        for (group, first) in
+            [(1, [0, 3, 4, 9, 11, 12]), (2, [0, 4, 4, 11, 11, 12]), (4, [0, 0, 11, 11, 11, 12]), (8, [0, 0, 0, 0, 12, 12])]
+        {
             let mut nodes = start.clone();
             nodes.bring_together(group);
-            assert_eq!((nodes.first, nodes.unknowns), (first.to_vec(), unknowns.to_vec()), "{group} ranks");
+            assert_eq!(nodes.first, first, "{group} ranks");
         }
     }
 
@@ -252,9 +248,7 @@ mod tests {
     fn bodies_share_no_function() {
         for (fine, coarsening) in coarsenings() {
             for (at, node) in fine.all.iter().enumerate() {
-                assert!(
-                    coarsening.values(at).iter().all(|(number, _)| coarsening.coarse.all[*number as usize].body == node.body)
-                );
+                assert!(coarsening.row(at).all(|(number, _)| coarsening.coarse.all[number as usize].body == node.body));
             }
         }
     }

@@ -25,68 +25,45 @@
 mod grid;
 mod level;
 mod operators;
+mod product;
 mod tree;
 
+pub use level::Coarsening;
 pub use operators::GalerkinLevels;
 
-use crate::discretisation::{Discretisation, SystemError};
-use crate::discretisation::{SMALL, ranks_in_group};
-use crate::petsc::{Index, Matrix, Session};
+use crate::discretisation::{Discretisation, SMALL, ranks_in_group};
 use grid::Grid;
-use level::{Coarsening, LevelNodes};
+use std::rc::Rc;
 use tree::Tree;
 
-/// Unknowns of a level that needs none below it.
-const FEW: usize = 500;
-
-/// Share of unknowns that the next level must do without.
+/// Share of nodes that the next level must do without.
 const LEAST_GAIN: f64 = 0.3;
 
-/// Interpolations from auxiliary levels up to the coarsest space of a problem, the first from the coarsest of them; none if
-/// that space is small. **Collective**
-pub fn auxiliary_interpolations(problem: &Discretisation, session: &Session) -> Result<Vec<Matrix>, SystemError> {
+/// Steps from the coarsest space of a problem down to a small level, the lowest first; none if that space is small. On `ranks`
+/// ranks, alike on each of them.
+pub fn coarsenings(problem: &Discretisation, ranks: usize) -> Vec<Rc<Coarsening>> {
     let space = &problem.spaces[0];
+    let mut coarsenings: Vec<Rc<Coarsening>> = Vec::new();
     if 2 * space.numbering.node_count() <= SMALL {
-        return Ok(Vec::new());
+        return coarsenings;
     }
     let grid = Grid::new(&problem.scene.mesh);
-    let (mut nodes, mut trees) = (grid.nodes(space, session.size()), grid.trees());
-    let mut interpolations = Vec::new();
-    while nodes.count() > FEW {
-        let mut coarsening = Coarsening::new(&nodes, &trees);
-        if coarsening.coarse.count() as f64 > (1.0 - LEAST_GAIN) * nodes.count() as f64 {
+    let (mesh, mut trees) = (grid.nodes(space, ranks), grid.trees());
+    loop {
+        let nodes = coarsenings.last().map_or(&mesh, |step| &step.coarse);
+        if 2 * nodes.all.len() <= SMALL {
             break;
         }
-        let ranks = session.size();
-        coarsening.coarse.bring_together(ranks_in_group(coarsening.coarse.count(), ranks));
-        interpolations.push(interpolation(&nodes, &coarsening, session)?);
-        nodes = coarsening.coarse;
+        let mut step = Coarsening::new(nodes, &trees);
+        let count = step.coarse.all.len();
+        if count as f64 > (1.0 - LEAST_GAIN) * nodes.all.len() as f64 {
+            break;
+        }
+        step.coarse.bring_together(ranks_in_group(2 * count, ranks));
+        coarsenings.push(Rc::new(step));
         let coarser: Vec<Option<Tree>> = trees.iter().map(Tree::coarser).collect();
         trees = coarser.into_iter().zip(trees).map(|(coarser, tree)| coarser.unwrap_or(tree)).collect();
     }
-    interpolations.reverse();
-    Ok(interpolations)
-}
-
-/// The interpolation of a coarsening (fine unknowns x coarse unknowns). Rows of prescribed components are zero. **Collective**
-fn interpolation(fine: &LevelNodes, coarsening: &Coarsening, session: &Session) -> Result<Matrix, SystemError> {
-    let rank = session.rank();
-    let (rows, columns) = (fine.own(rank), coarsening.coarse.own(rank));
-    let nodes = fine.first[rank]..fine.first[rank + 1];
-    let components = || nodes.clone().flat_map(|at| fine.all[at].components().map(move |(unknown, axis)| (unknown, at, axis)));
-    let (mut diagonal, mut off_diagonal) = (vec![0; rows.len()], vec![0; rows.len()]);
-    for (row, at, axis) in components() {
-        for (column, _) in coarsening.row(at, axis) {
-            let counts = if columns.contains(&column) { &mut diagonal } else { &mut off_diagonal };
-            counts[row - rows.start] += 1;
-        }
-    }
-    let mut matrix = Matrix::aij(session, rows.len(), columns.len(), 1, &diagonal, &off_diagonal)?;
-    for (row, at, axis) in components() {
-        let (columns, weights): (Vec<Index>, Vec<f64>) =
-            coarsening.row(at, axis).map(|(column, weight)| (column as Index, weight)).unzip();
-        matrix.insert(&[row as Index], &columns, &weights)?;
-    }
-    matrix.assemble()?;
-    Ok(matrix)
+    coarsenings.reverse();
+    coarsenings
 }

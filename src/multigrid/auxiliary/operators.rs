@@ -1,44 +1,48 @@
-//! Operators of the auxiliary levels.
+//! The stiffness on auxiliary levels.
 
-use crate::petsc::{Matrix, Result};
+use super::level::Coarsening;
+use super::product::GalerkinProduct;
+use crate::discretisation::SystemError;
+use crate::multigrid::stiffness::Stiffness;
+use crate::petsc::Session;
+use std::rc::Rc;
 
-/// Added to the diagonal, relative to it. Two functions that reach the same single node of their body, and no other, are
-/// multiples of each other: without the shift the operator would be singular, and a factor of it would meet a zero pivot.
-const SHIFT: f64 = 1e-9;
-
-/// Galerkin products `Pᵀ A P`, each of the next finer one, the finest of the coarsest operator that is assembled. So contact
+/// Galerkin products `Pᵀ A P`, each of the next finer one, the finest of the coarsest stiffness that is assembled. So contact
 /// comes down with the bodies.
 #[derive(Default)]
 pub struct GalerkinLevels {
-    /// Coarsest first.
-    operators: Vec<Matrix>,
+    /// Coarsest first, each with how it is made of the next finer one.
+    levels: Vec<(GalerkinProduct, Stiffness)>,
 }
 
 impl GalerkinLevels {
-    /// Below `finest`; the interpolations lead from the coarsest level up to it. **Collective**
-    pub fn new(finest: &Matrix, interpolations: &[&Matrix]) -> Result<Self> {
-        let mut operators: Vec<Matrix> = Vec::new();
-        for interpolation in interpolations.iter().rev() {
-            let mut operator = operators.last().unwrap_or(finest).galerkin(interpolation)?;
-            operator.scale_diagonal(1.0 + SHIFT)?;
-            operators.push(operator);
+    /// Below `finest`; the steps lead from the coarsest level up to it. **Collective**
+    pub fn new(finest: &Stiffness, steps: &[Rc<Coarsening>], session: &Session) -> Result<Self, SystemError> {
+        let mut levels: Vec<(GalerkinProduct, Stiffness)> = Vec::new();
+        for step in steps.iter().rev() {
+            let above = levels.last().map_or(finest, |(_, stiffness)| stiffness).lattice();
+            let (mut product, lattice) = GalerkinProduct::new(above, step, session)?;
+            product.refresh(above, 0..above.node_count() as u32, &lattice);
+            levels.push((product, Stiffness::of_rows(lattice, session)?));
         }
-        operators.reverse();
-        Ok(Self { operators })
+        levels.reverse();
+        Ok(Self { levels })
     }
 
-    /// The same of a matrix with other values. **Collective**
-    pub fn refresh(&mut self, finest: &Matrix, interpolations: &[&Matrix]) -> Result<()> {
-        for (level, interpolation) in interpolations.iter().enumerate().take(self.operators.len()).rev() {
-            let (coarser, finer) = self.operators.split_at_mut(level + 1);
-            finer.first().unwrap_or(finest).galerkin_into(interpolation, &mut coarser[level])?;
-            coarser[level].scale_diagonal(1.0 + SHIFT)?;
+    /// The same of a stiffness with other values. **Collective**
+    pub fn refresh(&mut self, finest: &Stiffness) -> Result<(), SystemError> {
+        let mut above = (finest.lattice().clone(), finest.lattice().changed_rows());
+        for (product, stiffness) in self.levels.iter_mut().rev() {
+            let (lattice, changed) = above;
+            let made = product.refresh(&lattice, changed.into_iter(), stiffness.lattice());
+            above = (stiffness.lattice().clone(), made.clone());
+            stiffness.renew(made)?;
         }
         Ok(())
     }
 
     /// Coarsest first.
-    pub fn iter(&self) -> impl Iterator<Item = &Matrix> {
-        self.operators.iter()
+    pub fn iter(&self) -> impl Iterator<Item = &Stiffness> {
+        self.levels.iter().map(|(_, stiffness)| stiffness)
     }
 }

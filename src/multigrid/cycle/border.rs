@@ -5,12 +5,11 @@
 //! [ Vᵀ  E ] [p] = [g]
 //! ```
 //! `p` and `E` are those of all levels, and `V`, of displacements alone, is restricted as forces are; what multipliers of contact do to
-//! its rows is in `g`. Sweeps leave `p` as it is. Below the levels that are swept it is found with `x`: where `C` is what solves there,
+//! its rows is in `g`. Sweeps leave `p` as it is. On the coarsest level it is found with `x`:
 //!
 //! ```text
-//! x = y - Z p,   y = C b,   p = Σ⁻¹ (g - Vᵀ y),   Z ≈ A⁻¹ V,   Σ = E - Vᵀ Z - Zᵀ (V - A Z)
+//! x = y - Z p,   y = A⁻¹ b,   p = Σ⁻¹ (g - Vᵀ y),   Z = A⁻¹ V,   Σ = E - Vᵀ Z
 //! ```
-//! The last term of `Σ` makes its error that of `Z` squared.
 
 use crate::petsc::Session;
 use nalgebra::{DMatrix, DVector};
@@ -23,8 +22,6 @@ pub type Sparse = Vec<(u32, f64)>;
 
 /// Unknowns beside the displacements.
 pub struct Border {
-    /// What tells the same unknown in another set.
-    pub names: Vec<usize>,
     /// `V` on the finest level, by unknowns of the border; rows are this rank's displacement unknowns.
     pub columns: Vec<Sparse>,
     /// `E`.
@@ -36,11 +33,10 @@ pub struct Border {
 /// The border on all levels of a cycle.
 pub struct LevelBorder {
     session: Session,
-    names: Vec<usize>,
     /// `V` by levels that are swept, the coarsest first.
     levels: Vec<Vec<Sparse>>,
     corner: DMatrix<f64>,
-    /// `V` and `Z` below these.
+    /// `V` and `Z` on the coarsest.
     below: Vec<Sparse>,
     responses: Vec<Vec<f64>>,
     /// `Σ⁻¹`.
@@ -48,32 +44,20 @@ pub struct LevelBorder {
 }
 
 impl LevelBorder {
-    /// From `V` on the levels below the finest one and below these, and `Z` with `V - A Z` there. **Collective**
+    /// From `V` on the levels between the finest and the coarsest one, and on that, with `Z` there. **Collective**
     pub fn new(
-        Border { names, columns, corner, scales }: Border,
+        Border { columns, corner, scales }: Border,
         mut levels: Vec<Vec<Sparse>>,
         below: Vec<Sparse>,
-        found: Vec<[Vec<f64>; 2]>,
+        responses: Vec<Vec<f64>>,
         session: &Session,
     ) -> Self {
         levels.push(columns);
         let count = scales.len();
-        let mut sums = DMatrix::zeros(count, count);
-        for (j, [response, _]) in found.iter().enumerate() {
-            below.iter().enumerate().for_each(|(i, column)| sums[(i, j)] += dot(column, response));
-            for (i, [_, left]) in found.iter().enumerate() {
-                sums[(j, i)] += response.iter().zip(left).map(|(z, r)| z * r).sum::<f64>();
-            }
-        }
-        session.sum(sums.as_mut_slice());
-        let inverse = scaled_inverse(&corner - sums, &scales);
-        let responses = found.into_iter().map(|[response, _]| response).collect();
-        Self { session: session.clone(), names, levels, corner, below, responses, inverse }
-    }
-
-    /// `Z` of an unknown, if it was in the border.
-    pub fn response(&self, name: usize) -> Option<&[f64]> {
-        self.names.iter().position(|&known| known == name).map(|at| &self.responses[at][..])
+        let mut works = DMatrix::from_fn(count, count, |i, j| dot(&below[i], &responses[j]));
+        session.sum(works.as_mut_slice());
+        let inverse = scaled_inverse(&corner - works, &scales);
+        Self { session: session.clone(), levels, corner, below, responses, inverse }
     }
 
     /// `g - Vᵀ x` on a level. **Collective**
@@ -102,7 +86,7 @@ impl LevelBorder {
         }
     }
 
-    /// `p` of what has been found below the levels without it, which becomes what belongs to it. **Collective**
+    /// `p` of what has been found on the coarsest level without it, which becomes what belongs to it. **Collective**
     pub fn solve(&self, g: &[f64], y: &mut [f64]) -> Vec<f64> {
         let p = &self.inverse * DVector::from_vec(self.left_of(&self.below, g, y));
         for (response, p) in self.responses.iter().zip(p.iter()) {

@@ -12,7 +12,7 @@ pub struct CycleLevel {
     /// Brings values of other ranks; `None` on one rank.
     halo: Option<Rc<Halo>>,
     /// Interpolation from the next coarser level.
-    step: Option<Rc<NodeInterpolation>>,
+    step: Rc<NodeInterpolation>,
     /// Its rows as sweeps read them, where all are stored and single precision does for them.
     sweep_rows: Option<SweepRows>,
     /// Whether residuals inside of even macro triangles are restricted where they are made.
@@ -27,12 +27,11 @@ pub struct CycleLevel {
 }
 
 impl CycleLevel {
-    /// With the interpolation from the next coarser level, if there is one.
-    pub fn new(lattice: Rc<LatticeOperator>, step: Option<Rc<NodeInterpolation>>, session: &Session) -> Self {
+    /// With the interpolation from the next coarser level.
+    pub fn new(lattice: Rc<LatticeOperator>, step: Rc<NodeInterpolation>, session: &Session) -> Self {
         let halo = (session.size() > 1).then(|| lattice.halo().clone());
         let sweep_rows = lattice.sweep_rows();
-        let is_of_rows = |step: &Rc<NodeInterpolation>| step.is_of(lattice.even().triangles.iter().map(|of| of.inner.clone()));
-        let is_fused = sweep_rows.is_none() && step.as_ref().is_some_and(is_of_rows);
+        let is_fused = sweep_rows.is_none() && step.is_of(lattice.even().triangles.iter().map(|of| of.inner.clone()));
         let (nodes, far) = (lattice.node_count(), vec![[0.0; 2]; lattice.far_count()]);
         let (b, x, room) = (Vec::new(), Vec::new(), InterpolationRoom::default());
         Self { lattice, halo, step, sweep_rows, is_fused, b, x, far, room, nodes }
@@ -47,7 +46,7 @@ impl CycleLevel {
 
     /// Takes over the values of the rows, some of which have changed.
     pub fn refresh(&mut self) {
-        let changed = self.lattice.changed_rows();
+        let changed = self.lattice.take_changed_rows();
         if let Some(rows) = &mut self.sweep_rows {
             rows.refresh(&self.lattice.rows().borrow(), changed.into_iter().map(|k| k as usize));
         }
@@ -82,7 +81,7 @@ impl CycleLevel {
             return self.restrict(r, below);
         }
         let Self { lattice, halo, far, step, room, .. } = self;
-        let (step, stored) = (step.as_ref().expect("a way down"), lattice.rows().borrow());
+        let stored = lattice.rows().borrow();
         let (even, rows) = (lattice.even(), lattice.lattice_rows(&stored));
         match halo {
             Some(halo) => halo.fetch(x, far, || rows.residual_inside(false, b, x, r)),
@@ -94,17 +93,17 @@ impl CycleLevel {
 
     /// Restricts forces to the next coarser level. **Collective**
     pub fn restrict(&mut self, fine: &[[f64; 2]], below: &mut [[f64; 2]]) {
-        self.step.as_ref().expect("a way down").restrict(fine, below, &mut self.room);
+        self.step.restrict(fine, below, &mut self.room);
     }
 
     /// Takes what the next coarser level has found. **Collective**
     pub fn begin(&mut self, below: &[[f64; 2]], x: &mut [[f64; 2]]) {
-        self.step.as_ref().expect("a way up").prolong::<false>(below, x, &mut self.room);
+        self.step.prolong::<false>(below, x, &mut self.room);
     }
 
     /// Adds what the next coarser level has found. **Collective**
     pub fn correct(&mut self, below: &[[f64; 2]], x: &mut [[f64; 2]]) {
-        self.step.as_ref().expect("a way up").prolong::<true>(below, x, &mut self.room);
+        self.step.prolong::<true>(below, x, &mut self.room);
     }
 
     /// A Gauss-Seidel sweep over the nodes here, symmetric where all rows are stored; those of other ranks stay as they are.

@@ -2,7 +2,7 @@
 //! on nothing of PETSc's but what solves on the coarsest level.
 //!
 //! Levels with few unknowns have been brought together on fewer ranks, the small ones on one: from the first of these downwards
-//! nothing is sent, unless there are auxiliary levels or rigid motions to be found, and the other ranks wait. Where options of the user's ask for another
+//! nothing is sent, unless there are rigid motions to be found, and the other ranks wait. Where options of the user's ask for another
 //! smoother, cycle or coarse solver, and where solves fall back on stronger smoothers, PETSc's own multigrid stands in its place
 //! (`system/solver`).
 
@@ -14,7 +14,7 @@ use crate::discretisation::SMALL;
 use crate::discretisation::SystemError;
 use crate::multigrid::interpolation::{Interpolation, NodeInterpolation};
 use crate::multigrid::stiffness::{Stiffness, SweepHalves};
-use crate::petsc::{Action, MultigridCycle, MultigridLevel, Result, Session, Vector};
+use crate::petsc::{Action, Result, Session, Vector};
 pub use border::{Border, Sparse, scaled_inverse};
 use border::{LevelBorder, column_of};
 use coarsest::Coarsest;
@@ -43,30 +43,21 @@ pub struct FullCycle {
 }
 
 impl FullCycle {
-    /// On the levels of a stiffness; `levels` are those of PETSc's multigrid, with auxiliary ones below these. `None` if there is
+    /// On the levels of a stiffness, the coarsest first, with the steps between them. `None` if there is
     /// nothing to sweep, or if options want entries of interpolations. **Collective**
-    fn new(
-        stiffness: &[Stiffness],
-        interpolations: &Rc<[Interpolation]>,
-        levels: &[MultigridLevel],
+    fn new<'a>(
+        stiffness: impl Iterator<Item = &'a Stiffness>,
+        interpolations: &[Interpolation],
         session: &Session,
     ) -> std::result::Result<Option<Self>, SystemError> {
-        let rows: Vec<_> = stiffness.iter().map(|stiffness| stiffness.lattice().clone()).collect();
-        let below = interpolations.len() + 1 - rows.len();
-        let steps: Option<Vec<Rc<NodeInterpolation>>> = interpolations[below..].iter().map(|step| step.nodes.clone()).collect();
-        let Some(steps) = steps.filter(|_| !interpolations.is_empty()) else { return Ok(None) };
-        let steps = std::iter::once(None).chain(steps.into_iter().map(Some));
-        let mut levels_of_rows = rows.into_iter().zip(steps);
-        let is_small = interpolations[0].matrix.size().1 <= SMALL;
-        let own = if below == 0 { levels_of_rows.next() } else { None };
-        let coarsest = match own {
-            Some((lattice, _)) if is_small => Coarsest::factor(lattice, session)?,
-            // Of so many bodies that no auxiliary level is smaller, the coarsest level of the mesh has a factor that all ranks make.
-            _ => Coarsest::on_levels(&levels[..below.max(1)], interpolations, session)?,
-        };
-        let size_above = |step: usize| interpolations[step].matrix.size();
-        let room = ROOM * size_above(interpolations.len() - 1).0 / size_above(below.saturating_sub(1)).1.max(1);
-        let mut levels: Vec<CycleLevel> = levels_of_rows.map(|(rows, step)| CycleLevel::new(rows, step, session)).collect();
+        let steps: Option<Vec<Rc<NodeInterpolation>>> = interpolations.iter().map(|step| step.nodes.clone()).collect();
+        let Some(steps) = steps.filter(|steps| !steps.is_empty()) else { return Ok(None) };
+        let mut lattices = stiffness.map(|stiffness| stiffness.lattice().clone());
+        let unknowns = |level: usize| interpolations[level].matrix.size();
+        let lowest = lattices.next().expect("a coarsest level");
+        let coarsest = Coarsest::new(lowest, unknowns(0).1 <= SMALL, session)?;
+        let room = ROOM * unknowns(interpolations.len() - 1).0 / unknowns(0).1.max(1);
+        let mut levels: Vec<CycleLevel> = lattices.zip(steps).map(|(rows, step)| CycleLevel::new(rows, step, session)).collect();
         let most = levels.iter().map(|level| level.nodes).max();
         let last = levels.pop().expect("a level that is swept");
         levels = levels.into_iter().map(CycleLevel::with_vectors).collect();
@@ -82,51 +73,47 @@ impl FullCycle {
 
     /// Takes over unknowns beside the displacements, for the present values of the stiffness. **Collective**
     fn set_border(&mut self, border: Border, session: &Session) -> Result<()> {
-        if border.names.is_empty() {
+        if border.columns.is_empty() {
             self.border = None;
             return Ok(());
         }
-        let (before, top) = (self.border.take(), self.levels.len() - 1);
+        let top = self.levels.len() - 1;
         let (mut lower, mut below, mut responses) = (vec![Vec::new(); top], Vec::new(), Vec::new());
-        for (column, &name) in border.columns.iter().zip(&border.names) {
+        for column in &border.columns {
             let mut forces = take(&mut self.r);
             forces.fill([0.0; 2]);
             column.iter().for_each(|&(at, value)| forces.as_flattened_mut()[at as usize] += value);
-            let restricted = self.restrict(&forces[..self.levels[top].nodes]);
+            self.restrict(&forces[..self.levels[top].nodes]);
             self.r = forces;
-            restricted?;
             lower.iter_mut().zip(&self.levels).for_each(|(columns, level)| columns.push(column_of(level.b.as_flattened())));
-            below.push(self.coarsest.with_forces(column_of));
-            responses.push(self.coarsest.response(before.as_ref().and_then(|before| before.response(name)))?);
+            below.push(column_of(self.coarsest.b.as_flattened()));
+            self.coarsest.solve()?;
+            responses.push(self.coarsest.x.as_flattened().to_vec());
         }
         self.border = Some(LevelBorder::new(border, lower, below, responses, session));
         Ok(())
     }
 
     /// Restricts forces to all levels below the finest one. **Collective**
-    fn restrict(&mut self, forces: &[[f64; 2]]) -> Result<()> {
+    fn restrict(&mut self, forces: &[[f64; 2]]) {
         let Self { coarsest, levels, .. } = self;
         let top = levels.len() - 1;
         for l in (0..=top).rev() {
             let (below, level) = levels.split_at_mut(l);
             let own = take(&mut level[0].b);
             let forces = if l == top { forces } else { &own };
-            match below.last_mut() {
-                Some(below) => level[0].restrict(forces, &mut below.b),
-                None => coarsest.restrict(&mut level[0], forces)?,
-            }
+            level[0].restrict(forces, below.last_mut().map_or(&mut coarsest.b, |below| &mut below.b));
             level[0].b = own;
         }
-        Ok(())
     }
 
     /// `x` of `[x; p] = M⁻¹ [b; g]` for the nodes of this rank; without the border if `g` is empty. `b` changes. **Collective**
     fn apply(&mut self, b: &mut [[f64; 2]], g: &[f64], x: &mut [[f64; 2]]) -> Result<()> {
-        self.restrict(b)?;
+        self.restrict(b);
         let Self { coarsest, levels, border, r, .. } = self;
         let top = levels.len() - 1;
         let mut descent = Descent { coarsest, border: border.as_ref().filter(|_| !g.is_empty()), r };
-        let mut p = descent.solve_below(MultigridCycle::Full, g)?;
+        let mut p = descent.solve_below(g)?;
         for l in 0..top {
             let (mut b, mut x) = (take(&mut levels[l].b), take(&mut levels[l].x));
             descent.begin(&mut levels[..=l], SweepHalves::Forward, (g, &mut p), &mut b, &mut x)?;
@@ -144,10 +131,10 @@ struct Descent<'a> {
 }
 
 impl Descent<'_> {
-    /// Solves below the levels, with a right-hand side of the border; what was found of that. **Collective**
-    fn solve_below(&mut self, cycle: MultigridCycle, g: &[f64]) -> Result<Vec<f64>> {
-        self.coarsest.solve(cycle)?;
-        Ok(self.border.map_or_else(Vec::new, |border| self.coarsest.with_solution(|y| border.solve(g, y))))
+    /// Solves on the coarsest level, with a right-hand side of the border; what was found of that. **Collective**
+    fn solve_below(&mut self, g: &[f64]) -> Result<Vec<f64>> {
+        self.coarsest.solve()?;
+        Ok(self.border.map_or_else(Vec::new, |border| border.solve(g, self.coarsest.x.as_flattened_mut())))
     }
 
     /// A V-cycle from what the next coarser level has found. **Collective**
@@ -160,10 +147,7 @@ impl Descent<'_> {
         x: &mut [[f64; 2]],
     ) -> Result<()> {
         let (level, below) = levels.split_last_mut().expect("a level");
-        match below.last() {
-            Some(below) => level.begin(&below.x, x),
-            None => self.coarsest.prolong::<false>(level, x)?,
-        }
+        level.begin(below.last().map_or(&self.coarsest.x, |below| &below.x), x);
         if let Some(border) = self.border {
             border.subtract(below.len(), p, b);
         }
@@ -183,9 +167,9 @@ impl Descent<'_> {
         let (level, below) = levels.split_last_mut().expect("a level");
         let left = self.border.map_or_else(Vec::new, |border| border.left(below.len(), g, x));
         let p = if below.is_empty() {
-            self.coarsest.restrict_residual(level, [b, x], self.r)?;
-            let p = self.solve_below(MultigridCycle::V, &left)?;
-            self.coarsest.prolong::<true>(level, x)?;
+            level.restrict_residual(b, x, self.r, &mut self.coarsest.b);
+            let p = self.solve_below(&left)?;
+            level.correct(&self.coarsest.x, x);
             p
         } else {
             let last = below.len() - 1;
@@ -210,14 +194,13 @@ impl Descent<'_> {
 pub struct Cycle(Rc<RefCell<FullCycle>>);
 
 impl Cycle {
-    /// On the levels of a system; `None` where there is no `FullCycle`. **Collective**
-    pub fn new(
-        stiffness: &[Stiffness],
-        interpolations: &Rc<[Interpolation]>,
-        levels: &[MultigridLevel],
+    /// On the levels of a stiffness, the coarsest first; `None` where there is no `FullCycle`. **Collective**
+    pub fn new<'a>(
+        stiffness: impl Iterator<Item = &'a Stiffness>,
+        interpolations: &[Interpolation],
         session: &Session,
     ) -> std::result::Result<Option<Self>, SystemError> {
-        let cycle = FullCycle::new(stiffness, interpolations, levels, session)?;
+        let cycle = FullCycle::new(stiffness, interpolations, session)?;
         Ok(cycle.map(|cycle| Self(Rc::new(RefCell::new(cycle)))))
     }
 

@@ -65,6 +65,7 @@ impl HalvedRow {
 }
 
 /// Halved rows of some macro triangles.
+#[derive(Default)]
 pub struct HalvedRows(Vec<HalvedRow>);
 
 impl HalvedRows {

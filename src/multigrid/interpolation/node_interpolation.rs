@@ -1,5 +1,6 @@
 //! Interpolation by nodes: whole macro triangles, halved rows inside of others, and a list of the other nodes.
 
+use super::Coupling;
 use super::halved_rows::{HalvedRow, HalvedRows};
 use super::parents::NodeParents;
 use super::whole;
@@ -23,8 +24,11 @@ pub struct NodeInterpolation {
     halved: HalvedRows,
     /// Nodes in the middle of two parents, or on one of them twice.
     even: Vec<[u32; 3]>,
-    /// Other couplings: of graded edges and of supports.
-    weighted: Vec<(u32, u32, Block)>,
+    /// Other couplings: of graded edges, of auxiliary levels, and of supports.
+    weighted: Vec<(u32, u32, f64)>,
+    turned: Vec<(u32, u32, Block)>,
+    /// Nodes that take nothing over.
+    unparented: Vec<u32>,
     /// Coarse nodes here, and how many are elsewhere: in lists they come behind those here.
     coarse: usize,
     halo: Option<Halo>,
@@ -83,7 +87,7 @@ impl NodeInterpolation {
             true => (node - coarse.own.start) as u32,
             false => (coarse.own.len() + far.binary_search(&node).expect("a known node")) as u32,
         };
-        let (mut even, mut weighted) = (Vec::new(), Vec::new());
+        let (mut even, mut weighted, mut others) = (Vec::new(), Vec::new(), Vec::new());
         for (node, pair) in rows.iter() {
             let at = (node - fine.own.start) as u32;
             let weights = rows.weights(node);
@@ -93,7 +97,8 @@ impl NodeInterpolation {
                 continue;
             }
             for (parent, weight) in pair.into_iter().zip(weights) {
-                weighted.push((at, place(parent), turned(fine, coarse, node, parent, weight)));
+                let coupling = Coupling { node, parent, weight, turned: turned(fine, coarse, node, parent) };
+                push(coupling, at, place(parent), &mut weighted, &mut others);
             }
         }
         // All ranks take the same way here, whatever they own: a halo is made by all of them together.
@@ -104,7 +109,33 @@ impl NodeInterpolation {
             WholeTriangle { fine: first..first + lattice::inner_count(n), coarse }
         };
         let whole = whole.iter().map(pair).collect();
-        Self { whole, n, halved, even, weighted, coarse: coarse.own.len(), halo, far: far.len() }
+        Self { whole, n, halved, even, weighted, turned: others, unparented: Vec::new(), coarse: coarse.own.len(), halo, far: far.len() }
+    }
+
+    /// From a list of all couplings of the fine nodes of this rank. **Collective**
+    pub fn of_couplings(
+        couplings: impl Iterator<Item = Coupling> + Clone,
+        fine: &Range<usize>,
+        coarse: &Range<usize>,
+        session: &Session,
+    ) -> Self {
+        let parents = couplings.clone().map(|coupling| coupling.parent);
+        let mut far: Vec<usize> = parents.filter(|parent| !coarse.contains(parent)).collect();
+        far.sort_unstable();
+        far.dedup();
+        let (mut weighted, mut turned, mut has_parent) = (Vec::new(), Vec::new(), vec![false; fine.len()]);
+        for coupling in couplings {
+            has_parent[coupling.node - fine.start] = true;
+            let place = match coarse.contains(&coupling.parent) {
+                true => coupling.parent - coarse.start,
+                false => coarse.len() + far.binary_search(&coupling.parent).expect("a known node"),
+            };
+            push(coupling, (coupling.node - fine.start) as u32, place as u32, &mut weighted, &mut turned);
+        }
+        let halo = (session.size() > 1).then(|| Halo::new(session, coarse, &far));
+        let unparented = (0..fine.len() as u32).filter(|&node| !has_parent[node as usize]).collect();
+        let (whole, halved, even) = (Vec::new(), HalvedRows::default(), Vec::new());
+        Self { whole, n: 0, halved, even, weighted, turned, unparented, coarse: coarse.len(), halo, far: far.len() }
     }
 
     /// Whether its whole macro triangles are these, by their inner nodes.
@@ -127,9 +158,15 @@ impl NodeInterpolation {
             (0..2).for_each(|k| to[k] = 0.5 * (a[k] + b[k]) + if ADD { to[k] } else { 0.0 });
         }
         if !ADD {
+            self.unparented.iter().for_each(|&node| y[node as usize] = [0.0; 2]);
             self.weighted.iter().for_each(|&(node, ..)| y[node as usize] = [0.0; 2]);
+            self.turned.iter().for_each(|&(node, ..)| y[node as usize] = [0.0; 2]);
         }
-        for &(node, parent, block) in &self.weighted {
+        for &(node, parent, weight) in &self.weighted {
+            let x = value(parent);
+            (0..2).for_each(|k| y[node as usize][k] += weight * x[k]);
+        }
+        for &(node, parent, block) in &self.turned {
             let x = value(parent);
             (0..2).for_each(|k| y[node as usize][k] += block[k][0] * x[0] + block[k][1] * x[1]);
         }
@@ -204,7 +241,10 @@ impl NodeInterpolation {
             add(a, value);
             add(b, value);
         }
-        for &(node, parent, block) in &self.weighted {
+        for &(node, parent, weight) in &self.weighted {
+            add(parent, y[node as usize].map(|v| weight * v));
+        }
+        for &(node, parent, block) in &self.turned {
             let y = y[node as usize];
             add(parent, [0, 1].map(|k| block[0][k] * y[0] + block[1][k] * y[1]));
         }
@@ -216,19 +256,29 @@ impl NodeInterpolation {
 
     /// Couplings that are not in halved rows.
     pub fn stored(&self) -> usize {
-        2 * self.even.len() + self.weighted.len()
+        2 * self.even.len() + self.weighted.len() + self.turned.len()
     }
 }
 
-/// What a coarse node hands to a fine one, in their frames.
-pub fn turned(fine: &Space, coarse: &Space, node: usize, parent: usize, weight: f64) -> Block {
+fn push(coupling: Coupling, at: u32, parent: u32, weighted: &mut Vec<(u32, u32, f64)>, turned: &mut Vec<(u32, u32, Block)>) {
+    match coupling.turned {
+        None => weighted.push((at, parent, coupling.weight)),
+        Some(_) => turned.push((at, parent, coupling.block())),
+    }
+}
+
+/// What a coarse node hands to a fine one, in their frames, if that is not all of it in the axes of the plane.
+pub fn turned(fine: &Space, coarse: &Space, node: usize, parent: usize) -> Option<Block> {
+    if fine.constraints.get(node).is_none() && coarse.constraints.get(parent).is_none() {
+        return None;
+    }
     let image = |k: usize| {
         let axis = Point::new(if k == 0 { 1.0 } else { 0.0 }, if k == 1 { 1.0 } else { 0.0 });
         let free = coarse.constraints.get(parent).map_or(axis, |constraint| constraint.free_part(axis));
-        fine.free_part(node, coarse.to_global(parent, free)) * weight
+        fine.free_part(node, coarse.to_global(parent, free))
     };
     let (x, y) = (image(0), image(1));
-    [[x.x, y.x], [x.y, y.y]]
+    Some([[x.x, y.x], [x.y, y.y]])
 }
 
 /// An interpolation as PETSc's multigrid uses it.

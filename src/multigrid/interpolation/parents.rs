@@ -53,7 +53,7 @@ impl NodeParents {
     }
 
     /// Nodes with their parents.
-    pub fn iter(&self) -> impl Iterator<Item = (usize, [usize; 2])> {
+    pub fn iter(&self) -> impl Iterator<Item = (usize, [usize; 2])> + Clone {
         self.nodes.iter().map(|&[node, a, b]| (node, [a, b]))
     }
 }

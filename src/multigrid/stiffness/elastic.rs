@@ -44,7 +44,7 @@ impl Elastic {
             let assembled = session.agree(assembled).map_err(SystemError::Case)?;
             let Assembled { rows, far, strips, even } = assembled;
             let lattice = LatticeOperator::new(rows, &space.own, far, &Rc::new(strips), &Rc::new(even), session)?;
-            stiffness.push(Stiffness::new(lattice, seen(l, form, session), session)?);
+            stiffness.push(Stiffness::new(lattice, seen(form, session), session)?);
         }
         Ok(Self { stiffness, load })
     }
@@ -67,10 +67,9 @@ impl Elastic {
     }
 }
 
-/// What solvers see of level `l`: all rows of the coarsest, which is factorised or multiplied with auxiliary interpolations, and
-/// of every level where something else than products and sweeps may be wanted.
-fn seen(l: usize, form: Form, session: &Session) -> SolverView {
-    if l == 0 || form == Form::Plain || want_entries(session) { SolverView::Entries } else { SolverView::Action }
+/// What solvers see: all rows, where something else than products and sweeps may be wanted.
+fn seen(form: Form, session: &Session) -> SolverView {
+    if form == Form::Plain || want_entries(session) { SolverView::Entries } else { SolverView::Action }
 }
 
 fn first_level(problem: &Discretisation, form: Form) -> usize {

@@ -24,7 +24,7 @@ pub struct LatticeOperator {
     pub(crate) strips: Rc<Strips>,
     pub(crate) even: Rc<EvenTriangles>,
     pub(crate) rows: Rc<RefCell<StoredRows>>,
-    /// Stored rows that have been added to since somebody asked, each perhaps several times.
+    /// Stored rows with other values since somebody took them, each perhaps several times.
     changed: RefCell<Vec<u32>>,
     /// Columns of other ranks, ascending.
     pub(crate) far: Vec<usize>,
@@ -60,6 +60,11 @@ impl LatticeOperator {
         Ok(Self { own: own.clone(), strips: strips.clone(), even: even.clone(), rows, changed, far, in_strips, halo, order })
     }
 
+    /// Of rows that are those of all nodes of this rank. **Collective**
+    pub fn of_rows(rows: StoredRows, own: &Range<usize>, far: Vec<usize>, session: &Session) -> Result<Self> {
+        Self::new(rows, own, far, &Rc::default(), &Rc::default(), session)
+    }
+
     /// A copy with places for the couplings of a contact boundary; the strips are the same. **Collective**
     pub fn with_places(&self, contact: &ContactNeighbours, session: &Session) -> Result<Self> {
         let (rows, far) = self.rows.borrow().with_places(contact, &self.own, &self.far);
@@ -88,20 +93,33 @@ impl LatticeOperator {
         if let Some(diagonal) = places.diagonal {
             rows.invert(places.stored as usize, diagonal);
         }
+        drop(rows);
+        self.note_changed(std::iter::once(places.stored));
+    }
+
+    /// Takes note of stored rows with other values.
+    pub fn note_changed(&self, rows: impl Iterator<Item = u32>) {
         let mut changed = self.changed.borrow_mut();
-        changed.push(places.stored);
-        // Nobody asks for those of a level that is not swept by rows of its own.
-        if changed.len() > 2 * rows.nodes.len() {
+        changed.extend(rows);
+        // Nobody takes those of a level that is not swept by rows of its own.
+        if changed.len() > 2 * self.rows.borrow().nodes.len() {
             changed.sort_unstable();
             changed.dedup();
         }
     }
 
-    /// The stored rows that have been added to since this was asked last, ascending.
+    /// The stored rows that have other values since they were taken last, ascending.
     pub fn changed_rows(&self) -> Vec<u32> {
-        let mut changed = self.changed.take();
+        let mut changed = self.changed.borrow_mut();
         changed.sort_unstable();
         changed.dedup();
+        changed.clone()
+    }
+
+    /// Takes them.
+    pub fn take_changed_rows(&self) -> Vec<u32> {
+        let changed = self.changed_rows();
+        self.changed.borrow_mut().clear();
         changed
     }
 

@@ -95,13 +95,15 @@ mod sweep_rows;
 mod triangle_kernel;
 
 pub use elastic::Elastic;
+pub use expanded::Expanded;
 pub use lattice_operator::LatticeOperator;
-pub use stored_rows::BlockPlace;
+pub use stored_rows::{BlockPlace, Part, StoredRows};
 pub use strip_kernel::SweepHalves;
 pub use sweep_rows::SweepRows;
 
 use crate::discretisation::SystemError;
 use crate::element::Block;
+use crate::multigrid::user_options::want_entries;
 use crate::petsc::{Matrix, Session};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -150,6 +152,12 @@ impl Stiffness {
         Ok(Self { lattice, matrix, seen, changed: Vec::new() })
     }
 
+    /// Of a level without elements of its own. **Collective**
+    pub fn of_rows(lattice: LatticeOperator, session: &Session) -> Result<Self, SystemError> {
+        let seen = if want_entries(session) { SolverView::Entries } else { SolverView::Action };
+        Self::new(lattice, seen, session)
+    }
+
     /// What solvers see.
     pub fn operator(&self) -> &Matrix {
         &self.matrix
@@ -176,6 +184,15 @@ impl Stiffness {
         if self.seen == SolverView::Entries {
             self.changed.push(places.stored);
         }
+    }
+
+    /// Takes note of stored rows with other values, and makes these hold. **Collective**
+    pub fn renew(&mut self, changed: Vec<u32>) -> Result<(), SystemError> {
+        self.lattice.note_changed(changed.iter().copied());
+        if self.seen == SolverView::Entries {
+            self.changed.extend(changed);
+        }
+        self.assemble()
     }
 
     /// Makes added blocks hold. **Collective**

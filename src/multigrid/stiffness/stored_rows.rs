@@ -71,6 +71,18 @@ impl Default for Part {
 }
 
 impl Part {
+    /// Zeros in these columns, ascending, of each row.
+    pub fn zeros(rows: impl Iterator<Item = impl Iterator<Item = u32>>) -> Self {
+        let mut part = Self::default();
+        for columns in rows {
+            part.firsts.push(part.columns.len() as u32);
+            part.columns.extend(columns);
+            part.starts.push(part.columns.len() as u32);
+        }
+        part.blocks = vec![[[0.0; 2]; 2]; part.columns.len()];
+        part
+    }
+
     /// Places of the columns of row `k`.
     #[inline]
     pub fn row(&self, k: usize) -> Range<usize> {
@@ -151,6 +163,20 @@ fn fingerprint(blocks: &[Block]) -> u64 {
 }
 
 impl StoredRows {
+    /// Rows of all nodes of a rank, which share nothing.
+    pub fn zeros(near: Part, far: Part) -> Self {
+        let count = near.firsts.len() as u32;
+        Self { nodes: (0..count).collect(), inverses: vec![[[0.0; 2]; 2]; count as usize], inverse_of: (0..count).collect(), near, far }
+    }
+
+    /// Replaces the blocks of row `k`, which shares them with none: those of columns of this rank first.
+    pub fn set_row(&mut self, k: usize, blocks: &[Block]) {
+        let (near, far) = blocks.split_at(self.near.row(k).len());
+        self.near.blocks[self.near.firsts[k] as usize..][..near.len()].copy_from_slice(near);
+        self.far.blocks[self.far.firsts[k] as usize..][..far.len()].copy_from_slice(far);
+        self.invert(k, self.diagonal_place(k));
+    }
+
     /// The nodes whose rows these are.
     pub fn nodes(&self) -> &[u32] {
         &self.nodes

@@ -83,12 +83,7 @@ impl BorderBlocks {
             BorderUnknown::Motion(j) => self.column(*j).map(|column| column.forces.clone()),
             BorderUnknown::Mean(j) => self.border.components[*j].mean.clone(),
         };
-        let name = |unknown: &BorderUnknown| match unknown {
-            BorderUnknown::Motion(j) => 2 * j,
-            BorderUnknown::Mean(j) => 2 * j + 1,
-        };
         Border {
-            names: unknowns.iter().map(name).collect(),
             columns: unknowns.iter().map(|unknown| column(unknown).unwrap_or_default()).collect(),
             corner: DMatrix::from_fn(unknowns.len(), unknowns.len(), |i, j| self.entry(unknowns[i], unknowns[j])),
             scales: unknowns.iter().map(|&unknown| self.scale(unknown)).collect(),

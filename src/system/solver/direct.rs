@@ -36,6 +36,6 @@ pub fn direct(system: &SaddlePoint, session: &Session) -> Result<Prepared, Syste
     krylov.watch()?;
     krylov.set_up()?;
     let (_replaced, bordered) = replace_action(&krylov, None, system, Form::Plain, session)?;
-    let (auxiliary, cycle, name) = (GalerkinLevels::default(), None, "direct (MUMPS)".into());
-    Ok(Prepared { krylov, _replaced, bordered, auxiliary, cycle, name })
+    let (auxiliary, cycle, coarsest, name) = (GalerkinLevels::default(), None, None, "direct (MUMPS)".into());
+    Ok(Prepared { krylov, _replaced, bordered, auxiliary, cycle, coarsest, name })
 }

@@ -3,7 +3,7 @@
 use super::block_triangle::BlockTriangle;
 use super::bordered::Bordered;
 use super::ladder::Rung;
-use super::operators::{below, set_operators};
+use super::operators::set_operators;
 use super::options::{
     CoarseSolver, FIELD_SPLIT, MOST_REDUNDANT, Options, REDUNDANT_FACTOR, is_changed, is_split_changed, lambda_options,
     preconditioning_options,
@@ -11,7 +11,7 @@ use super::options::{
 use super::preconditioning::Preconditioning;
 use super::prepared::Prepared;
 use crate::discretisation::{Form, SystemError};
-use crate::multigrid::{Cycle, GalerkinLevels, Interpolation, Stiffness};
+use crate::multigrid::{Cycle, Expanded, GalerkinLevels, Interpolation, Stiffness};
 use crate::petsc::{self, Action, Krylov, MultigridCycle, MultigridLevel, Preconditioner, ReplacedAction, Session};
 use crate::system::saddle_point::SaddlePoint;
 use std::rc::Rc;
@@ -36,8 +36,8 @@ pub fn field_split(
     krylov.set_from_options()?;
     krylov.watch()?;
     krylov.set_up()?;
-    let (auxiliary, cycle) = match preconditioning {
-        Preconditioning::Factor => (GalerkinLevels::default(), None),
+    let (auxiliary, cycle, coarsest) = match preconditioning {
+        Preconditioning::Factor => (GalerkinLevels::default(), None, None),
         _ => levels(&preconditioner, system, interpolations, preconditioning, session)?,
     };
     let block_triangle = match cycle.as_ref().filter(|_| !is_split_changed(session)) {
@@ -51,7 +51,7 @@ pub fn field_split(
     let kind = preconditioner.field_split_solvers()?[0].preconditioner().kind();
     let own = kind == "mg" || kind == "shell" || is_factor(&kind) && preconditioning == Preconditioning::Factor;
     let name = if own { name(preconditioning) } else { format!("fieldsplit ({kind})") };
-    Ok(Prepared { krylov, _replaced, bordered, auxiliary, cycle, name })
+    Ok(Prepared { krylov, _replaced, bordered, auxiliary, cycle, coarsest, name })
 }
 
 /// Sets the options of the field split, where the user has set none.
@@ -80,33 +80,36 @@ fn set_options(
 }
 
 /// Auxiliary levels, and the cycle on all levels as the preconditioner of field `u`: mezha's own where the options allow it,
-/// otherwise PETSc's. **Collective**
+/// otherwise PETSc's, with the rows of the coarsest level. **Collective**
 fn levels(
     preconditioner: &Preconditioner,
     system: &SaddlePoint,
-    interpolations: &Rc<[Interpolation]>,
+    interpolations: &[Interpolation],
     preconditioning: Preconditioning,
     session: &Session,
-) -> Result<(GalerkinLevels, Option<Cycle>), SystemError> {
-    let auxiliary = GalerkinLevels::new(system.stiffness[0].operator(), &below(interpolations, system))?;
-    let solvers = preconditioner.field_split_solvers()?;
-    let steps = std::iter::once(None).chain(interpolations.iter().map(|step| Some(&step.matrix)));
-    let operators = auxiliary.iter().chain(system.stiffness.iter().map(Stiffness::operator));
-    let levels: Vec<MultigridLevel> =
-        operators.zip(steps).map(|(operator, interpolation)| MultigridLevel { operator, interpolation }).collect();
+) -> Result<(GalerkinLevels, Option<Cycle>, Option<Expanded>), SystemError> {
+    let steps: Vec<_> = interpolations.iter().filter_map(|step| step.coarsening.clone()).collect();
+    let auxiliary = GalerkinLevels::new(&system.stiffness[0], &steps, session)?;
+    let all = || auxiliary.iter().chain(&system.stiffness);
+    let solver = preconditioner.field_split_solvers()?.swap_remove(0);
     petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
-    let mut cycle = None;
+    let (mut cycle, mut coarsest) = (None, None);
     if preconditioning == Preconditioning::Sweep && !is_changed(session) {
-        cycle = Cycle::new(&system.stiffness, interpolations, &levels, session)?;
-        // PETSc's multigrid below the cycle has set this default; field u has a shell.
-        petsc::options::clear(session, "-fieldsplit_u_pc_type")?;
+        cycle = Cycle::new(all(), interpolations, session)?;
     }
     match &cycle {
-        Some(cycle) => solvers[0].preconditioner().set_action("multigrid F-cycle on strips and stored rows", cycle.action())?,
-        None => solvers[0].preconditioner().multigrid(MultigridCycle::Full, &levels)?,
+        Some(cycle) => solver.preconditioner().set_action("multigrid F-cycle on strips and stored rows", cycle.action())?,
+        None => {
+            let lattice = all().next().expect("a coarsest level").lattice();
+            let rows = &coarsest.insert(Expanded::new(lattice, session)?).matrix;
+            let operators = std::iter::once(rows).chain(all().skip(1).map(Stiffness::operator));
+            let steps = std::iter::once(None).chain(interpolations.iter().map(|step| Some(&step.matrix)));
+            let levels = operators.zip(steps).map(|(operator, interpolation)| MultigridLevel { operator, interpolation });
+            solver.preconditioner().multigrid(MultigridCycle::Full, &levels.collect::<Vec<_>>())?;
+        }
     }
-    solvers[0].set_up()?;
-    Ok((auxiliary, cycle))
+    solver.set_up()?;
+    Ok((auxiliary, cycle, coarsest))
 }
 
 /// Puts in the place of what the preconditioner does a block triangle, and around it what knows of rigid motions, if there are

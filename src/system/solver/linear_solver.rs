@@ -4,13 +4,13 @@ use super::direct::direct;
 use super::field_split::{field_split, name};
 use super::ladder::{DIRECT, Rung, climb, ladder};
 use super::linear_solve::LinearSolve;
-use super::operators::{below, set_operators, set_plain_operators};
+use super::operators::{set_operators, set_plain_operators};
 use super::options::chosen;
 use super::preconditioning::Preconditioning;
 use super::prepared::Prepared;
 use crate::discretisation::{Form, SystemError};
-use crate::multigrid::Interpolation;
-use crate::petsc::{Matrix, Session};
+use crate::multigrid::{Interpolation, Stiffness};
+use crate::petsc::Session;
 use crate::system::choice::SolverChoice;
 use crate::system::saddle_point::SaddlePoint;
 use std::rc::Rc;
@@ -56,16 +56,19 @@ impl LinearSolver {
     /// Takes over changed blocks. **Collective**
     pub fn refresh(&mut self, system: &SaddlePoint) -> Result<(), SystemError> {
         let rung = self.rung();
-        let Some(Prepared { krylov, bordered, auxiliary, cycle, .. }) = &mut self.prepared else { return Ok(()) };
+        let Some(Prepared { krylov, bordered, auxiliary, cycle, coarsest, .. }) = &mut self.prepared else { return Ok(()) };
         if let Some(bordered) = bordered {
             bordered.forget();
         }
         if self.form == Form::Plain {
             return set_plain_operators(krylov, system);
         }
-        auxiliary.refresh(system.stiffness[0].operator(), &below(&self.interpolations, system))?;
+        auxiliary.refresh(&system.stiffness[0])?;
         if let Some(cycle) = cycle {
             cycle.refresh(&self.session)?;
+        }
+        if let Some(rows) = coarsest {
+            rows.refresh()?;
         }
         set_operators(krylov, system, rung.preconditioning, &self.session)
     }
@@ -108,8 +111,8 @@ impl LinearSolver {
         self.rung().preconditioning
     }
 
-    /// Operators of the auxiliary levels, coarsest first. **Collective**
-    pub fn auxiliary_operators(&mut self, system: &SaddlePoint) -> Result<impl Iterator<Item = &Matrix>, SystemError> {
+    /// The auxiliary levels, coarsest first. **Collective**
+    pub fn auxiliary_levels(&mut self, system: &SaddlePoint) -> Result<impl Iterator<Item = &Stiffness>, SystemError> {
         Ok(self.prepare(system)?.auxiliary.iter())
     }
 }

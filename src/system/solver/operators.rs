@@ -1,9 +1,8 @@
-//! What a linear solver works on: the operator and the matrix it preconditions by, and the steps between auxiliary levels.
+//! What a linear solver works on: the operator and the matrix it preconditions by.
 
 use super::preconditioning::Preconditioning;
 use crate::discretisation::SystemError;
-use crate::multigrid::Interpolation;
-use crate::petsc::{Krylov, Matrix, Session};
+use crate::petsc::{Krylov, Session};
 use crate::system::saddle_point::SaddlePoint;
 
 /// The product of the nest and the nest, or for a factor the one with all rows stored. **Collective**
@@ -27,9 +26,4 @@ pub(super) fn set_plain_operators(krylov: &Krylov, system: &SaddlePoint) -> Resu
     let mut converted = system.nest.convert_aij()?;
     converted.set_symmetric(true)?;
     Ok(krylov.set_operators(if system.border.is_some() { &system.product } else { &converted }, &converted)?)
-}
-
-/// Those interpolations that lead to auxiliary levels, or up from them.
-pub(super) fn below<'a>(interpolations: &'a [Interpolation], system: &SaddlePoint) -> Vec<&'a Matrix> {
-    interpolations[..interpolations.len() + 1 - system.stiffness.len()].iter().map(|step| &step.matrix).collect()
 }

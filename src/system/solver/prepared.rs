@@ -1,7 +1,7 @@
 //! What a rung of the ladder works with, once it is set up.
 
 use super::bordered::Bordered;
-use crate::multigrid::{Cycle, GalerkinLevels};
+use crate::multigrid::{Cycle, Expanded, GalerkinLevels};
 use crate::petsc::{Krylov, ReplacedAction};
 use std::rc::Rc;
 
@@ -15,6 +15,8 @@ pub struct Prepared {
     pub auxiliary: GalerkinLevels,
     /// The cycle, if it is mezha's own.
     pub cycle: Option<Cycle>,
+    /// Otherwise the rows of the coarsest level, for that of PETSc's.
+    pub coarsest: Option<Expanded>,
     /// The solver and its preconditioning, in words.
     pub name: String,
 }
