@@ -152,14 +152,6 @@ impl Matrix {
         petsc!(MatGetDiagonal(self.raw, diagonal.raw()))
     }
 
-    /// Multiplies the diagonal. **Collective**
-    pub fn scale_diagonal(&mut self, factor: f64) -> Result<()> {
-        let mut diagonal = self.create_vectors()?.1;
-        self.diagonal(&mut diagonal)?;
-        diagonal.scale(factor)?;
-        petsc!(MatDiagonalSet(self.raw, diagonal.raw(), ffi::InsertMode::INSERT_VALUES))
-    }
-
     /// Largest sum of magnitudes in a row. **Collective**
     pub fn norm_infinity(&self) -> Result<f64> {
         self.norm(ffi::NormType::NORM_INFINITY)
@@ -241,18 +233,6 @@ impl Matrix {
         let right = Vector::from_raw(&self.session, right);
         let left = Vector::from_raw(&self.session, left);
         Ok((right?, left?))
-    }
-
-    /// The Galerkin product `Pᵀ A P`, in a matrix of its own. **Collective**
-    pub fn galerkin(&self, interpolation: &Self) -> Result<Self> {
-        let mut raw = ptr::null_mut();
-        petsc!(MatPtAP(self.raw, interpolation.raw, ffi::MatReuse::MAT_INITIAL_MATRIX, ffi::mezha_default_real, &mut raw))?;
-        Ok(Self::from_raw(&self.session, raw))
-    }
-
-    /// The Galerkin product `Pᵀ A P`, into the product of the same interpolation with a matrix of the same pattern. **Collective**
-    pub fn galerkin_into(&self, interpolation: &Self, product: &mut Self) -> Result<()> {
-        petsc!(MatPtAP(self.raw, interpolation.raw, ffi::MatReuse::MAT_REUSE_MATRIX, ffi::mezha_default_real, &mut product.raw))
     }
 
     /// A sparse copy, as direct solvers want it. **Collective**

@@ -46,7 +46,7 @@ pub use index::Index;
 pub use index_set::IndexSet;
 pub use krylov::{Krylov, KrylovEnding};
 pub use matrix::Matrix;
-pub use multigrid::{MultigridCycle, MultigridLevel};
+pub use multigrid::MultigridLevel;
 pub use partition::partition;
 pub use preconditioner::Preconditioner;
 pub use session::{Session, end_all_ranks};

@@ -7,15 +7,6 @@ use super::vector::length;
 use super::{ffi, options};
 use std::ptr;
 
-/// In which order levels are worked on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MultigridCycle {
-    /// From the coarsest level up, a V-cycle on each.
-    Full,
-    /// Down to the coarsest level and up again.
-    V,
-}
-
 /// One level of a multigrid method.
 pub struct MultigridLevel<'a> {
     /// The operator of this level.
@@ -25,20 +16,20 @@ pub struct MultigridLevel<'a> {
 }
 
 impl Preconditioner {
-    /// Makes this a multigrid cycle over `levels`, the coarsest first, and reads its options. **Collective**
+    /// Makes this a full multigrid cycle over `levels`, the coarsest first, and reads its options. **Collective**
     ///
     /// A default that had switched the preconditioner to another kind gives way; a kind of the user's stays.
     ///
     /// # Panics
     /// If interpolations are missing or the coarsest level has one.
-    pub fn multigrid(&self, cycle: MultigridCycle, levels: &[MultigridLevel<'_>]) -> Result<()> {
+    pub fn multigrid(&self, levels: &[MultigridLevel<'_>]) -> Result<()> {
         let complete = levels.iter().enumerate().all(|(l, level)| level.interpolation.is_some() == (l > 0));
         assert!(complete && !levels.is_empty(), "an interpolation on every level but the coarsest");
         // An earlier default such as "none" would win again when options are read.
         options::set_default(self.session(), &format!("-{}pc_type", self.prefix()), "mg")?;
         self.set_kind("mg")?;
         petsc!(PCMGSetLevels(self.raw(), length(levels.len()), ptr::null_mut()))?;
-        self.set_cycle(cycle)?;
+        petsc!(PCMGSetType(self.raw(), ffi::PCMGType::PC_MG_FULL))?;
         for (l, level) in levels.iter().enumerate() {
             if let Some(interpolation) = level.interpolation {
                 petsc!(PCMGSetInterpolation(self.raw(), length(l), interpolation.raw()))?;
@@ -48,14 +39,5 @@ impl Preconditioner {
             petsc!(KSPSetOperators(smoother, level.operator.raw(), level.operator.raw()))?;
         }
         self.set_from_options()
-    }
-
-    /// Changes the order in which a multigrid works on its levels, from its next step on. **Collective**
-    pub fn set_cycle(&self, cycle: MultigridCycle) -> Result<()> {
-        let kind = match cycle {
-            MultigridCycle::Full => ffi::PCMGType::PC_MG_FULL,
-            MultigridCycle::V => ffi::PCMGType::PC_MG_MULTIPLICATIVE,
-        };
-        petsc!(PCMGSetType(self.raw(), kind))
     }
 }

@@ -1,6 +1,6 @@
 //! Small matrices and problems for the checks.
 
-use mezha::petsc::{Index, Krylov, Matrix, MultigridCycle, MultigridLevel, Session, Vector, options};
+use mezha::petsc::{Index, Krylov, Matrix, MultigridLevel, Session, Vector, options};
 use std::ops::Range;
 
 /// This rank's range of `total` numbers.
@@ -136,7 +136,7 @@ impl<'a> HeldString<'a> {
             .zip(interpolations)
             .map(|(operator, interpolation)| MultigridLevel { operator, interpolation })
             .collect();
-        nodes.multigrid(MultigridCycle::Full, &levels).unwrap();
+        nodes.multigrid(&levels).unwrap();
         solvers[0].set_up().unwrap();
         krylov
     }

@@ -13,7 +13,7 @@ pub struct CycleLevel {
     halo: Option<Rc<Halo>>,
     /// Interpolation from the next coarser level.
     step: Rc<NodeInterpolation>,
-    /// Its rows as sweeps read them, where all are stored and single precision does for them.
+    /// Its rows as sweeps read them, where all are stored.
     sweep_rows: Option<SweepRows>,
     /// Whether residuals inside of even macro triangles are restricted where they are made.
     is_fused: bool,

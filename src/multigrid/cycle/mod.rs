@@ -23,10 +23,6 @@ use std::cell::RefCell;
 use std::mem::take;
 use std::rc::Rc;
 
-/// Vectors of the finest level that take as much room as what a cycle keeps of unknowns beside the displacements, on what is below
-/// the levels that are swept: as many as two for each of the eight held means that may be found around the cycle.
-const ROOM: usize = 16;
-
 /// Full multigrid: on each level, from the coarsest one up, a V-cycle with one Gauss-Seidel sweep before and one after the coarse
 /// correction, from what the coarser level has found. Sweeps are symmetric; before the coarse corrections of levels below the
 /// finest one they go forward alone where not all rows are stored, or from zero: that saves a quarter of the sweeps there and costs
@@ -35,9 +31,8 @@ pub struct FullCycle {
     coarsest: Coarsest,
     /// Those that are swept, the coarsest first.
     levels: Vec<CycleLevel>,
-    /// Unknowns beside the displacements, if there are any, and how many there is room for.
+    /// Unknowns beside the displacements, if there are any.
     border: Option<LevelBorder>,
-    room: usize,
     /// A residual, of one level at a time.
     r: Vec<[f64; 2]>,
 }
@@ -53,16 +48,14 @@ impl FullCycle {
         let steps: Option<Vec<Rc<NodeInterpolation>>> = interpolations.iter().map(|step| step.nodes.clone()).collect();
         let Some(steps) = steps.filter(|steps| !steps.is_empty()) else { return Ok(None) };
         let mut lattices = stiffness.map(|stiffness| stiffness.lattice().clone());
-        let unknowns = |level: usize| interpolations[level].matrix.size();
         let lowest = lattices.next().expect("a coarsest level");
-        let coarsest = Coarsest::new(lowest, unknowns(0).1 <= SMALL, session)?;
-        let room = ROOM * unknowns(interpolations.len() - 1).0 / unknowns(0).1.max(1);
+        let coarsest = Coarsest::new(lowest, interpolations[0].matrix.size().1 <= SMALL, session)?;
         let mut levels: Vec<CycleLevel> = lattices.zip(steps).map(|(rows, step)| CycleLevel::new(rows, step, session)).collect();
         let most = levels.iter().map(|level| level.nodes).max();
         let last = levels.pop().expect("a level that is swept");
         levels = levels.into_iter().map(CycleLevel::with_vectors).collect();
         levels.push(last);
-        Ok(Some(Self { coarsest, levels, border: None, room, r: vec![[0.0; 2]; most.unwrap_or(0)] }))
+        Ok(Some(Self { coarsest, levels, border: None, r: vec![[0.0; 2]; most.unwrap_or(0)] }))
     }
 
     /// Takes over the values of the stiffness, which have changed. **Collective**
@@ -208,11 +201,6 @@ impl Cycle {
     /// what it was then. **Collective**
     pub fn apply(&self, b: &mut [f64], g: &[f64], x: &mut [f64]) -> Result<()> {
         self.0.borrow_mut().apply(b.as_chunks_mut().0, g, x.as_chunks_mut().0)
-    }
-
-    /// How many unknowns beside the displacements there is room for.
-    pub fn room(&self) -> usize {
-        self.0.borrow().room
     }
 
     /// Takes over unknowns beside the displacements, for the present values of the stiffness. **Collective**

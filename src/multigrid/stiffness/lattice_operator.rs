@@ -33,6 +33,8 @@ pub struct LatticeOperator {
     /// What brings the values of the columns of other ranks.
     halo: Rc<Halo>,
     order: SweepOrder,
+    /// Whether it is a Galerkin product, of functions that may be nearly multiples of each other.
+    is_product: bool,
 }
 
 impl LatticeOperator {
@@ -57,12 +59,13 @@ impl LatticeOperator {
         let (order, halo) = (SweepOrder::new(&rows, strips), Rc::new(Halo::new(session, own, &far)));
         let rows = Rc::new(RefCell::new(rows));
         let changed = RefCell::default();
-        Ok(Self { own: own.clone(), strips: strips.clone(), even: even.clone(), rows, changed, far, in_strips, halo, order })
+        Ok(Self { own: own.clone(), strips: strips.clone(), even: even.clone(), rows, changed, far, in_strips, halo, order, is_product: false })
     }
 
-    /// Of rows that are those of all nodes of this rank. **Collective**
-    pub fn of_rows(rows: StoredRows, own: &Range<usize>, far: Vec<usize>, session: &Session) -> Result<Self> {
-        Self::new(rows, own, far, &Rc::default(), &Rc::default(), session)
+    /// Of the rows of a Galerkin product, those of all nodes of this rank. **Collective**
+    pub fn of_product(rows: StoredRows, own: &Range<usize>, far: Vec<usize>, session: &Session) -> Result<Self> {
+        let lattice = Self::new(rows, own, far, &Rc::default(), &Rc::default(), session)?;
+        Ok(Self { is_product: true, ..lattice })
     }
 
     /// A copy with places for the couplings of a contact boundary; the strips are the same. **Collective**
@@ -123,10 +126,11 @@ impl LatticeOperator {
         changed
     }
 
-    /// The rows as sweeps read them, if all of this rank's are stored, and single precision does for them.
+    /// The rows as sweeps read them, if all of this rank's are stored.
     pub fn sweep_rows(&self) -> Option<SweepRows> {
         let rows = self.rows.borrow();
-        (rows.nodes.len() == self.own.len() && SweepRows::can_be_of(&rows)).then(|| SweepRows::new(&rows))
+        let is_single = !self.is_product && SweepRows::can_be_single(&rows);
+        (rows.nodes.len() == self.own.len() && (is_single || rows.near.is_unshared())).then(|| SweepRows::new(&rows, is_single))
     }
 
     /// In which order rows are worked on.

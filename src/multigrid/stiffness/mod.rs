@@ -43,7 +43,8 @@
 //! with multiply-add, or none) are asked for at run time by `pulp`, so that no code of ours is `unsafe`. The nodes on sides of
 //! macro triangles come first, those that need no node of another rank before the others: meanwhile the values of other ranks
 //! arrive. A level with all of its rows stored, as a fine mesh of Gmsh's has, is swept in the order of its nodes, by copies of its
-//! couplings in single precision, of which sweeps and residuals read no more than they need (`sweep_rows.rs`). On other levels
+//! couplings in single precision, of which sweeps and residuals read no more than they need (`sweep_rows.rs`); an auxiliary one likewise,
+//! but in double precision. On other levels
 //! each macro triangle then goes forward and backward while it is in the cache, as no macro triangle couples to another; then the
 //! sides again.
 //!
@@ -53,9 +54,8 @@
 //! without copies (`system/solver/block_triangle.rs`, `petsc::ReplacedAction`; it needs PETSc's `private/pcimpl.h`, which PETSc
 //! installs), while its kind, parts and set-up stay. Levels of up to 3000 unknowns are on one rank, larger ones on one of every
 //! 2, 4, 8, … ranks, so that each of these has about a thousand unknowns or more (`discretisation/level_ranks.rs`); the finest stays on all.
-//! From the first level on one rank downwards nothing is sent, and that rank solves the coarsest with a factor. Where the macro
-//! mesh is larger, it is swept, too, and a cycle of PETSc's multigrid on the auxiliary levels below it stands in the place of the
-//! factor (`cycle/coarsest.rs`). All messages go from neighbour to neighbour, and are under way while strips, or the first sides of a
+//! From the first level on one rank downwards nothing is sent, and that rank solves the coarsest with a factor
+//! (`cycle/coarsest.rs`). Where the macro mesh is larger, auxiliary levels follow below it, with stored rows like its own. All messages go from neighbour to neighbour, and are under way while strips, or the first sides of a
 //! sweep, are worked on. The product of the saddle point is a shell, too (`nest_product`): PETSc's nest finds the parts of its
 //! vectors by a sum over all ranks, four in each product. So an iteration of GMRES has two sums over all ranks for its inner
 //! products (one of BiCGStab four, for two cycles), and no other collective; `tests/messages.rs` counts them. Only where the cycle

@@ -89,6 +89,11 @@ impl Part {
         self.starts[k] as usize..self.starts[k + 1] as usize
     }
 
+    /// Whether each row has blocks of its own, which lie like its columns.
+    pub fn is_unshared(&self) -> bool {
+        self.firsts.iter().zip(&self.starts).all(|(first, start)| first == start)
+    }
+
     /// Couplings of row `k`.
     pub fn couplings(&self, k: usize) -> impl Iterator<Item = (u32, &Block)> {
         let row = self.row(k);

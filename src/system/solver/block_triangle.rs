@@ -48,11 +48,6 @@ impl BlockTriangle {
         Ok(Rc::new(Self { cycle, told: RefCell::new(Vec::new()), border, session, lower, coupling, room: RefCell::new(room) }))
     }
 
-    /// How many of these the cycle has room for.
-    pub fn room(&self) -> usize {
-        self.cycle.room()
-    }
-
     /// Tells the cycle of unknowns of the border, those of before no longer. **Collective**
     pub fn tell(&self, border: &BorderBlocks, unknowns: Vec<BorderUnknown>) -> Result<()> {
         self.cycle.set_border(border.for_cycle(&unknowns), &self.session)?;

@@ -12,7 +12,7 @@ use super::preconditioning::Preconditioning;
 use super::prepared::Prepared;
 use crate::discretisation::{Form, SystemError};
 use crate::multigrid::{Cycle, Expanded, GalerkinLevels, Interpolation, Stiffness};
-use crate::petsc::{self, Action, Krylov, MultigridCycle, MultigridLevel, Preconditioner, ReplacedAction, Session};
+use crate::petsc::{self, Action, Krylov, MultigridLevel, Preconditioner, ReplacedAction, Session};
 use crate::system::saddle_point::SaddlePoint;
 use std::rc::Rc;
 
@@ -105,7 +105,7 @@ fn levels(
             let operators = std::iter::once(rows).chain(all().skip(1).map(Stiffness::operator));
             let steps = std::iter::once(None).chain(interpolations.iter().map(|step| Some(&step.matrix)));
             let levels = operators.zip(steps).map(|(operator, interpolation)| MultigridLevel { operator, interpolation });
-            solver.preconditioner().multigrid(MultigridCycle::Full, &levels.collect::<Vec<_>>())?;
+            solver.preconditioner().multigrid(&levels.collect::<Vec<_>>())?;
         }
     }
     solver.set_up()?;

@@ -37,7 +37,7 @@
 //!   2/(1 + sin α)), one more sweep of the sides, γ at 5, a pentadiagonal S⁻¹: each by itself saves one of fourteen iterations
 //!   to 1e-12, or none.
 //! - **unknown rigid motions, and multipliers of held means, are unknowns of the cycle (`multigrid/cycle/border.rs`)**: sweeps
-//!   leave them as they are, and what solves below the levels finds them. 20 bodies, half of them not round, turns held, one rank,
+//!   leave them as they are, and what solves on the coarsest level finds them. 20 bodies, half of them not round, turns held, one rank,
 //!   to 1e-11: all solves on the finest mesh 73 iterations instead of 251, the run 7 s instead of 28. Two such unknowns or less, and
 //!   more than 128, are left to what stands around the cycle (`bordered.rs`), as beside other preconditioners.
 //! - **fine segments on every level: B_l = B_{l+1} P_{l+1}**: the F-cycle needs the variational property; aggregated ones stall
@@ -48,12 +48,12 @@
 //! - **loop at 1e-4, last solve at `tolerance`**: the right set in 10 of 10 runs; 1e-2 gives wrong ones.
 //!
 //! The stored rows of K_γ are assembled once with places for every coupling of Γ_C, and a change of the set writes to these
-//! places alone, which are looked for once (`contact_places.rs`); where PETSc sees the rows, as on the coarsest level, those
+//! places alone, which are looked for once (`contact_places.rs`); where PETSc sees the rows, those
 //! that change are handed to it whole. `System::set_active` adds the difference of BᵀDB on every level and writes the rows and
 //! columns of the multipliers that change, no others: at a million unknowns and 500 segments one that opens takes a hundredth
 //! of a millisecond, all of them less than one. Blocks, right-hand side and solver cannot belong to different sets, since
 //! `System` alone changes them. Below a macro mesh of more than 3000 unknowns, that of a fine file say, come auxiliary levels:
-//! their operators are Galerkin products, made again by the next solve.
+//! their rows are Galerkin products, of which those above changed rows are made again.
 //! `direct` gives the plain system, converted to AIJ, to MUMPS: the reference for the other.
 
 mod block_triangle;
