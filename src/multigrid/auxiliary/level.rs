@@ -202,7 +202,8 @@ mod tests {
         for (fine, coarsening) in coarsenings {
             // Functions beside what is held may be without a component.
             let is_whole = |number: u32| coarsening.coarse.all[number as usize].is_free == [true; 2];
-            let free: Vec<usize> = (0..fine.all.len()).filter(|&at| coarsening.row(at).all(|(number, _)| is_whole(number))).collect();
+            let free: Vec<usize> =
+                (0..fine.all.len()).filter(|&at| coarsening.row(at).all(|(number, _)| is_whole(number))).collect();
             assert!(2 * free.len() > fine.all.len());
             for (at, node) in free.into_iter().map(|at| (at, &fine.all[at])) {
                 let mut taken = [0.0; 2];

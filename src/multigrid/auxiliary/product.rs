@@ -65,14 +65,16 @@ impl GalerkinProduct {
             foreign.push(ForeignRow { known, columns, first });
         }
         let pairs = session.send_to(&ranks, &pairs, 2);
-        let arriving: Vec<(usize, u32)> = pairs.as_chunks().0.iter().map(|&[row, column]| (row as usize - own.start, column)).collect();
+        let arriving: Vec<(usize, u32)> =
+            pairs.as_chunks().0.iter().map(|&[row, column]| (row as usize - own.start, column)).collect();
         arriving.iter().for_each(|&(row, column)| pattern[row].push(column));
         for columns in &mut pattern {
             columns.sort_unstable();
             columns.dedup();
         }
         let (product, far) = zeros(&pattern, &own);
-        let place = |(at, &(row, column)): (usize, &(usize, u32))| (row, (place_in_row(&product, row, column, &own, &far), at as u32));
+        let place =
+            |(at, &(row, column)): (usize, &(usize, u32))| (row, (place_in_row(&product, row, column, &own, &far), at as u32));
         let places = Lists::new(own.len(), arriving.iter().enumerate().map(place));
         let known = |number: usize| step.known.binary_search(&(number as u32)).map_or(NONE, |known| known as u32);
         let (known_here, known_far) = (own.clone().map(known).collect(), far.iter().map(|&number| known(number)).collect());
@@ -111,7 +113,8 @@ impl GalerkinProduct {
         }
         let arrived = self.session.send_to(&self.ranks, self.sent.as_flattened().as_flattened(), 4);
         let before = std::mem::replace(&mut self.arrived, arrived);
-        let is_new = |&(_, at): &(u32, u32)| before.as_chunks::<4>().0[at as usize] != self.arrived.as_chunks::<4>().0[at as usize];
+        let is_new =
+            |&(_, at): &(u32, u32)| before.as_chunks::<4>().0[at as usize] != self.arrived.as_chunks::<4>().0[at as usize];
         (0..self.own.len()).map(|k| self.places.of(k).iter().any(is_new)).collect()
     }
 

@@ -19,7 +19,12 @@ pub struct Coarsest {
 enum CoarsestSolver {
     /// Of a small level, on the rank that has it.
     Factor(Option<Factor>),
-    Shared { solver: Krylov, rows: Expanded, b: Vector, x: Vector },
+    Shared {
+        solver: Krylov,
+        rows: Expanded,
+        b: Vector,
+        x: Vector,
+    },
 }
 
 impl Coarsest {

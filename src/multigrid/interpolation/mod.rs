@@ -46,7 +46,12 @@ pub fn interpolations(problem: &Discretisation, session: &Session) -> Result<Vec
 fn auxiliary_interpolation(step: &Rc<Coarsening>, fine: Range<usize>, session: &Session) -> Result<Interpolation, SystemError> {
     let own = step.coarse.own(session.rank());
     let couplings = fine.clone().flat_map(|node| {
-        step.row(node).map(move |(parent, value)| Coupling { node, parent: parent as usize, weight: value, turned: step.turned(node, parent) })
+        step.row(node).map(move |(parent, value)| Coupling {
+            node,
+            parent: parent as usize,
+            weight: value,
+            turned: step.turned(node, parent),
+        })
     });
     let coarsening = Some(step.clone());
     if want_entries(session) {

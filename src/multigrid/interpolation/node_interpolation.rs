@@ -109,7 +109,18 @@ impl NodeInterpolation {
             WholeTriangle { fine: first..first + lattice::inner_count(n), coarse }
         };
         let whole = whole.iter().map(pair).collect();
-        Self { whole, n, halved, even, weighted, turned: others, unparented: Vec::new(), coarse: coarse.own.len(), halo, far: far.len() }
+        Self {
+            whole,
+            n,
+            halved,
+            even,
+            weighted,
+            turned: others,
+            unparented: Vec::new(),
+            coarse: coarse.own.len(),
+            halo,
+            far: far.len(),
+        }
     }
 
     /// From a list of all couplings of the fine nodes of this rank. **Collective**

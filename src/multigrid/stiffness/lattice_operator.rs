@@ -59,7 +59,18 @@ impl LatticeOperator {
         let (order, halo) = (SweepOrder::new(&rows, strips), Rc::new(Halo::new(session, own, &far)));
         let rows = Rc::new(RefCell::new(rows));
         let changed = RefCell::default();
-        Ok(Self { own: own.clone(), strips: strips.clone(), even: even.clone(), rows, changed, far, in_strips, halo, order, is_product: false })
+        Ok(Self {
+            own: own.clone(),
+            strips: strips.clone(),
+            even: even.clone(),
+            rows,
+            changed,
+            far,
+            in_strips,
+            halo,
+            order,
+            is_product: false,
+        })
     }
 
     /// Of the rows of a Galerkin product, those of all nodes of this rank. **Collective**

@@ -171,7 +171,13 @@ impl StoredRows {
     /// Rows of all nodes of a rank, which share nothing.
     pub fn zeros(near: Part, far: Part) -> Self {
         let count = near.firsts.len() as u32;
-        Self { nodes: (0..count).collect(), inverses: vec![[[0.0; 2]; 2]; count as usize], inverse_of: (0..count).collect(), near, far }
+        Self {
+            nodes: (0..count).collect(),
+            inverses: vec![[[0.0; 2]; 2]; count as usize],
+            inverse_of: (0..count).collect(),
+            near,
+            far,
+        }
     }
 
     /// Replaces the blocks of row `k`, which shares them with none: those of columns of this rank first.

@@ -315,7 +315,9 @@ mod tests {
         let mut with_others = 0;
         for ((rows, others), is_single) in all_rows().into_iter().flat_map(|rows| [(rows.clone(), true), (rows, false)]) {
             let (count, mut sweep) = (rows.nodes.len(), SweepRows::new(&rows, is_single));
-            let check = |found: &[[f64; 2]], exact: &[[f64; 2]], size: f64| check(found, exact, size, if is_single { 1e-5 } else { 1e-13 });
+            let check = |found: &[[f64; 2]], exact: &[[f64; 2]], size: f64| {
+                check(found, exact, size, if is_single { 1e-5 } else { 1e-13 })
+            };
             with_others += sweep.far.len();
             let (b, start, far) = (vector(count, 3), vector(count, 8), vector(others, 5));
             let (mut x, mut exact, mut r, mut exact_r) = (start.clone(), start, b.clone(), b.clone());
@@ -348,7 +350,9 @@ mod tests {
             for k in 0..rows.nodes.len() {
                 let mut sum = inverse(&sweep.inverses[k]).expect("an inverse has one");
                 for place in rows.near.row(k).filter(|&place| place != sweep.diagonals[k] as usize) {
-                    (0..4).for_each(|at| sum[at / 2][at % 2] += f64::from(sweep.blocks.as_ref().expect("single precision")[place][at]) * sweep.unit);
+                    (0..4).for_each(|at| {
+                        sum[at / 2][at % 2] += f64::from(sweep.blocks.as_ref().expect("single precision")[place][at]) * sweep.unit
+                    });
                 }
                 let size = rows.diagonal(k).as_flattened().iter().fold(0.0_f64, |size, v| size.max(v.abs()));
                 let exact = rows
