@@ -1,8 +1,7 @@
-//! Matrices known by their actions alone: PETSc's Krylov methods and multigrid use them like any other.
+//! Matrices known by their actions alone: PETSc's Krylov methods use them like any other.
 
 use super::error::{Result, check, petsc};
 use super::ffi;
-use super::index::Index;
 use super::matrix::Matrix;
 use super::preconditioner::Preconditioner;
 use super::session::Session;
@@ -16,20 +15,10 @@ pub trait Operator {
     /// `y = A x`.
     fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()>;
 
-    /// `r = b - A x`.
-    fn residual(&self, b: &Vector, x: &Vector, r: &mut Vector) -> Result<()>;
-
-    /// One symmetric Gauss-Seidel sweep over the unknowns of this rank, those of other ranks being fixed; from `x`, or from
-    /// zero whatever `x` holds.
-    fn relax(&self, b: &Vector, x: &mut Vector, from_zero: bool) -> Result<()>;
-
-    /// The diagonal.
-    fn diagonal(&self, diagonal: &mut Vector) -> Result<()>;
-
     /// Largest sum of magnitudes in a row of this rank, or of all.
     fn norm_infinity(&self) -> Result<f64>;
 
-    /// Floating-point operations of a product on this rank, for PETSc's log; a sweep has twice as many.
+    /// Floating-point operations of a product on this rank, for PETSc's log.
     fn work(&self) -> f64;
 }
 
@@ -79,9 +68,6 @@ impl Matrix {
         // PETSc stores every operation as a function without arguments and calls it as what it is.
         unsafe {
             set(ffi::MatOperation::MATOP_MULT, mem::transmute::<Two, Plain>(operator::multiply))?;
-            set(ffi::MatOperation::MATOP_RESIDUAL, mem::transmute::<Three, Plain>(operator::residual))?;
-            set(ffi::MatOperation::MATOP_SOR, mem::transmute::<Sweep, Plain>(operator::relax))?;
-            set(ffi::MatOperation::MATOP_GET_DIAGONAL, mem::transmute::<One, Plain>(operator::diagonal))?;
             set(ffi::MatOperation::MATOP_NORM, mem::transmute::<Norm, Plain>(operator::norm))?;
         }
         Ok(matrix)
@@ -119,11 +105,9 @@ impl Matrix {
 }
 
 type Plain = unsafe extern "C" fn();
-type One = unsafe extern "C" fn(ffi::Mat, ffi::Vec) -> Code;
 type Two = unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec) -> Code;
 type Three = unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec, ffi::Vec) -> Code;
 type Norm = unsafe extern "C" fn(ffi::Mat, ffi::NormType, *mut f64) -> Code;
-type Sweep = unsafe extern "C" fn(ffi::Mat, ffi::Vec, f64, ffi::MatSORType, f64, Index, Index, ffi::Vec) -> Code;
 
 impl Preconditioner {
     /// Makes this an action; `name` is what PETSc shows of it. **Collective**
@@ -253,40 +237,6 @@ mod operator {
             action.multiply(&Lent::new(session, x), &mut Lent::new(session, y))?;
             petsc!(mezha_log_work(action.work()))
         })
-    }
-
-    pub unsafe extern "C" fn residual(matrix: ffi::Mat, b: ffi::Vec, x: ffi::Vec, r: ffi::Vec) -> Code {
-        act(matrix, |action: &Square, session| {
-            action.residual(&Lent::new(session, b), &Lent::new(session, x), &mut Lent::new(session, r))?;
-            petsc!(mezha_log_work(action.work()))
-        })
-    }
-
-    pub unsafe extern "C" fn relax(
-        matrix: ffi::Mat,
-        b: ffi::Vec,
-        factor: f64,
-        kind: ffi::MatSORType,
-        shift: f64,
-        sweeps: Index,
-        local_sweeps: Index,
-        x: ffi::Vec,
-    ) -> Code {
-        let from_zero = ffi::MatSORType::SOR_ZERO_INITIAL_GUESS.0;
-        let zero = kind.0 & from_zero != 0;
-        let symmetric = [ffi::MatSORType::SOR_SYMMETRIC_SWEEP.0, ffi::MatSORType::SOR_LOCAL_SYMMETRIC_SWEEP.0];
-        act(matrix, |action: &Square, session| {
-            let known = symmetric.contains(&(kind.0 & !from_zero)) && (factor, shift) == (1.0, 0.0);
-            assert!(known, "shells have symmetric sweeps without relaxation factor and shift");
-            let (b, mut x) = (Lent::new(session, b), Lent::new(session, x));
-            let sweeps = sweeps * local_sweeps;
-            (0..sweeps).try_for_each(|sweep| action.relax(&b, &mut x, zero && sweep == 0))?;
-            petsc!(mezha_log_work(2.0 * sweeps as f64 * action.work()))
-        })
-    }
-
-    pub unsafe extern "C" fn diagonal(matrix: ffi::Mat, diagonal: ffi::Vec) -> Code {
-        act(matrix, |action: &Square, session| action.diagonal(&mut Lent::new(session, diagonal)))
     }
 
     pub unsafe extern "C" fn norm(matrix: ffi::Mat, kind: ffi::NormType, norm: *mut f64) -> Code {

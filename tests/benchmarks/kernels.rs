@@ -10,8 +10,8 @@ mod bars;
 
 use mezha::discretisation::{Discretisation, Form};
 use mezha::element::Order;
-use mezha::multigrid::{Elastic, interpolations};
-use mezha::petsc::{Operator, Session, Vector};
+use mezha::multigrid::{Elastic, SweepHalves, interpolations};
+use mezha::petsc::Session;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -27,15 +27,13 @@ fn main() {
         let problem = Discretisation::new(bars::scene(&session, order, refine, false), &session).expect("a discretisation");
         let load = vec![0.0; problem.finest().local_unknowns()];
         let elastic = Elastic::alone(&problem, load, Form::Augmented, &session).expect("a stiffness");
-        let all = interpolations(&problem, &session).expect("interpolations");
-        let step = &all[all.len() - 1].matrix;
+        let all = interpolations(&problem, &session);
+        let (step, mut room) = (&all[all.len() - 1].nodes, Default::default());
         let lattice = elastic.stiffness[elastic.stiffness.len() - 1].lattice();
-        let (mut coarse, mut x) = step.create_vectors().expect("vectors");
-        let (mut b, mut r) = (x.duplicate().expect("a vector"), x.duplicate().expect("a vector"));
-        fill(&mut b);
-        fill(&mut x);
-        fill(&mut coarse);
-        let nodes = b.local_len() as f64 / 2.0;
+        let mut coarse = values(problem.spaces[problem.spaces.len() - 2].own.len());
+        let (mut x, b) = (values(lattice.node_count()), values(lattice.node_count()));
+        let mut r = b.clone();
+        let nodes = b.len() as f64;
         let show = |name: &str, seconds: f64, bytes: f64, flops: f64| {
             println!(
                 "{order:?}, n = 128, {name}: {:.2} ns for each node, {bytes:.0} bytes and {flops:.0} operations: {:.0} % of STREAM, \
@@ -46,17 +44,18 @@ fn main() {
             );
         };
         // Components are two numbers of eight bytes; what is written is not counted as read before.
-        let sweep = median(|| lattice.relax(&b, &mut x, false).expect("a sweep"));
+        let sweep = median(|| lattice.relax(SweepHalves::Both, &b, &mut x));
         show("sweep, both directions", sweep, 48.0, 2.0 * 8.0 * couplings);
-        show("residual", median(|| lattice.residual(&b, &x, &mut r).expect("a residual")), 48.0, 8.0 * couplings);
-        show("product", median(|| lattice.multiply(&x, &mut r).expect("a product")), 32.0, 8.0 * couplings);
-        show("interpolation", median(|| step.multiply_add(&coarse, &mut x).expect("a sum")), 36.0, 6.0);
-        show("restriction", median(|| step.multiply_transpose(&r, &mut coarse).expect("a product")), 20.0, 6.0);
+        show("residual", median(|| lattice.residual(&b, &x, &mut r)), 48.0, 8.0 * couplings);
+        show("product", median(|| lattice.multiply(&x, &mut r)), 32.0, 8.0 * couplings);
+        show("interpolation", median(|| step.prolong::<true>(&coarse, &mut x, &mut room)), 36.0, 6.0);
+        show("restriction", median(|| step.restrict(&r, &mut coarse, &mut room)), 20.0, 6.0);
     }
 }
 
-fn fill(vector: &mut Vector) {
-    vector.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = ((at * 7919) % 1013) as f64 / 1013.0);
+fn values(count: usize) -> Vec<[f64; 2]> {
+    let value = |at: usize| ((at * 7919) % 1013) as f64 / 1013.0;
+    (0..count).map(|at| [value(2 * at), value(2 * at + 1)]).collect()
 }
 
 /// Median of 25 timings, seconds.

@@ -10,7 +10,7 @@ use mezha::discretisation::{Discretisation, Field, Form, Space, local_strain_ene
 use mezha::element::Order;
 use mezha::geometry::{Curve, Formula};
 use mezha::mesh::{Partition, lattice};
-use mezha::multigrid::{Elastic, interpolations};
+use mezha::multigrid::{Cycle, Elastic, interpolations};
 use mezha::petsc::{Krylov, Matrix, Session, Vector, options};
 use std::rc::Rc;
 
@@ -21,7 +21,7 @@ fn main() -> std::process::ExitCode {
             strips_act_like_stored_rows,
             expanded_strips_are_the_stored_matrix,
             the_energy_of_a_product_is_that_of_the_triangles,
-            a_sweep_is_symmetric_and_reduces_the_error,
+            a_cycle_reduces_the_error,
             solvers_of_petsc_take_strips,
             halved_rows_interpolate_linear_motions_exactly,
             halved_rows_are_transposed,
@@ -98,16 +98,8 @@ fn strips_act_like_stored_rows(session: &Session) {
         let [strips, stored] = both(&problem, session);
         assert!(strips.stiffness.last().expect("levels").has_strips(), "there is something to compare");
         let (strips, stored) = (finest(&strips), finest(&stored));
-        let (x, b) = (erratic(&problem, stored, 0.3), erratic(&problem, stored, 0.7));
+        let x = erratic(&problem, stored, 0.3);
         assert!(apart(product(strips, &x), &product(stored, &x)) < 1e-14);
-        let [mut left, mut right] = [0; 2].map(|_| x.duplicate().expect("a vector"));
-        strips.residual(&b, &x, &mut left).expect("a residual");
-        stored.residual(&b, &x, &mut right).expect("a residual");
-        assert!(apart(left, &right) < 1e-14);
-        let [mut left, mut right] = [0; 2].map(|_| x.duplicate().expect("a vector"));
-        strips.diagonal(&mut left).expect("a diagonal");
-        stored.diagonal(&mut right).expect("a diagonal");
-        assert!(apart(left, &right) < 1e-14);
         let [a, b] = [strips, stored].map(|matrix| matrix.norm_infinity().expect("a norm"));
         assert!((a / b - 1.0).abs() < 1e-14);
     }
@@ -172,51 +164,44 @@ fn the_energy_of_a_product_is_that_of_the_triangles(session: &Session) {
     }
 }
 
-/// One sweep from zero, as PETSc's `sor` applies it.
-fn swept(matrix: &Matrix, b: &Vector, session: &Session) -> Vector {
-    options::set_default(session, "-swept_ksp_type", "preonly").expect("an option");
-    options::set_default(session, "-swept_pc_type", "sor").expect("an option");
-    let krylov = Krylov::new(session, "swept_").expect("a solver");
-    krylov.set_operators(matrix, matrix).expect("operators");
-    krylov.set_from_options().expect("options");
-    let mut x = b.duplicate().expect("a vector");
-    krylov.solve(b, &mut x).expect("one sweep");
-    x
-}
-
-fn a_sweep_is_symmetric_and_reduces_the_error(session: &Session) {
-    for problem in problems(session) {
+/// In the energy norm; with steps of CG in the place of a sweep, by more.
+fn a_cycle_reduces_the_error(session: &Session) {
+    for (order, refine, graded) in [(Order::P1, 5, false), (Order::P2, 4, false), (Order::P1, 6, true)] {
+        let mut scene = bars::scene(session, order, refine, graded);
+        let zero = Some(Formula::constant(0.0));
+        let on = vec!["bottom".into(), "top".into()];
+        scene.supports.push(Support { name: "ends".into(), on, at: None, ux: None, uy: zero, normal: None });
+        let problem = Discretisation::new(scene, session).expect("a discretisation");
         let [strips, stored] = both(&problem, session);
-        let (strips, stored) = (finest(&strips), finest(&stored));
-        let [a, b] = [0.2, 0.9].map(|seed| erratic(&problem, stored, seed));
-        let [forth, back] = [(&a, &b), (&b, &a)].map(|(a, b)| swept(strips, a, session).dot(b).expect("an inner product"));
-        assert!((forth / back - 1.0).abs() < 1e-12, "{forth} {back}");
-        // In the energy norm, and not worse than with all rows stored.
-        let left = [strips, stored].map(|matrix| {
-            let mut error = swept(matrix, &product(stored, &a), session);
-            error.axpy(-1.0, &a).expect("of one layout");
-            product(stored, &error).dot(&error).expect("an energy")
+        let (interpolations, stored) = (interpolations(&problem, session), finest(&stored));
+        let x = erratic(&problem, stored, 0.2);
+        let b = product(stored, &x);
+        let whole = b.dot(&x).expect("an energy");
+        let left = [0, 2, 4].map(|steps| {
+            let cycle = Cycle::new(strips.stiffness.iter(), &interpolations, steps, session).expect("a cycle");
+            let mut error = x.duplicate().expect("a vector");
+            cycle.apply(&mut b.values().to_vec(), &[], &mut error.values_mut()).expect("applied");
+            error.axpy(-1.0, &x).expect("of one layout");
+            product(stored, &error).dot(&error).expect("an energy") / whole
         });
-        let whole = product(stored, &a).dot(&a).expect("an energy");
-        assert!(left[0] < 0.2 * whole && left[0] < 1.1 * left[1], "{left:?} of {whole}");
+        assert!(left[0] < 0.05 && left[1] < 0.5 * left[0] && left[2] < 0.5 * left[1], "{left:?}");
     }
 }
 
 fn solvers_of_petsc_take_strips(session: &Session) {
     options::set_default(session, "-strips_ksp_type", "cg").expect("an option");
-    options::set_default(session, "-strips_pc_type", "sor").expect("an option");
-    options::set_default(session, "-strips_pc_sor_its", "2").expect("an option");
+    options::set_default(session, "-strips_pc_type", "none").expect("an option");
     let problem = &problems(session)[0];
     let [strips, stored] = both(problem, session);
     let x = erratic(problem, finest(&stored), 0.4);
     let b = product(finest(&stored), &x);
     let krylov = Krylov::new(session, "strips_").expect("a solver");
     krylov.set_operators(finest(&strips), finest(&strips)).expect("operators");
-    krylov.set_tolerance(1e-12, 2000).expect("a tolerance");
+    krylov.set_tolerance(1e-8, 2000).expect("a tolerance");
     krylov.set_from_options().expect("options");
     let mut found = x.duplicate().expect("a vector");
     krylov.solve(&b, &mut found).expect("it converges");
-    assert!(apart(product(finest(&stored), &found), &b) < 1e-11);
+    assert!(apart(product(finest(&stored), &found), &b) < 1e-7);
 }
 
 /// A linear motion that the supports allow, in the unknowns of a level.
@@ -237,31 +222,33 @@ fn linear_motion(problem: &Discretisation, space: &Space, session: &Session) -> 
 
 fn halved_rows_interpolate_linear_motions_exactly(session: &Session) {
     for problem in problems(session).into_iter().take(2) {
-        let all = interpolations(&problem, session).expect("interpolations");
+        let all = interpolations(&problem, session);
         let (fine, coarse) = (problem.finest(), &problem.spaces[problem.spaces.len() - 2]);
         let motion = |space: &Space| linear_motion(&problem, space, session);
         let (x, expected) = (motion(coarse), motion(fine));
         let mut found = expected.duplicate().expect("a vector");
-        all[all.len() - 1].matrix.multiply(&x, &mut found).expect("interpolated");
+        let nodes = &all[all.len() - 1].nodes;
+        nodes.prolong::<false>(x.values().as_chunks().0, found.values_mut().as_chunks_mut().0, &mut Default::default());
         assert!(apart(found, &expected) < 1e-14);
     }
 }
 
 fn halved_rows_are_transposed(session: &Session) {
     for problem in problems(session).into_iter().chain([lopsided(session)]) {
-        let all = interpolations(&problem, session).expect("interpolations");
-        let last = &all[all.len() - 1].matrix;
-        let (mut x, mut y) = last.create_vectors().expect("vectors");
+        let all = interpolations(&problem, session);
+        let (nodes, mut room) = (&all[all.len() - 1].nodes, Default::default());
+        let spaces = [problem.finest(), &problem.spaces[problem.spaces.len() - 2]];
+        let [mut y, mut x] = spaces.map(|space| Vector::new(session, space.local_unknowns()).expect("a vector"));
         x.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = (at as f64).cos());
         y.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = (at as f64).sin());
         let (mut fine, mut coarse) = (y.duplicate().expect("a vector"), x.duplicate().expect("a vector"));
-        last.multiply(&x, &mut fine).expect("a product");
-        last.multiply_transpose(&y, &mut coarse).expect("a product");
+        nodes.prolong::<false>(x.values().as_chunks().0, fine.values_mut().as_chunks_mut().0, &mut room);
+        nodes.restrict(y.values().as_chunks().0, coarse.values_mut().as_chunks_mut().0, &mut room);
         let [forth, back] = [fine.dot(&y), coarse.dot(&x)].map(|v| v.expect("an inner product"));
         assert!((forth - back).abs() < 1e-12 * fine.norm().expect("a norm") * y.norm().expect("a norm"));
-        last.multiply_add(&x, &mut fine).expect("a sum");
+        nodes.prolong::<true>(x.values().as_chunks().0, fine.values_mut().as_chunks_mut().0, &mut room);
         let mut twice = fine.duplicate().expect("a vector");
-        last.multiply(&x, &mut twice).expect("a product");
+        nodes.prolong::<false>(x.values().as_chunks().0, twice.values_mut().as_chunks_mut().0, &mut room);
         twice.scale(2.0).expect("a vector");
         assert!(apart(fine, &twice) < 1e-14);
     }

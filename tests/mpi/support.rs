@@ -1,6 +1,6 @@
 //! Small matrices and problems for the checks.
 
-use mezha::petsc::{Index, Krylov, Matrix, MultigridLevel, Session, Vector, options};
+use mezha::petsc::{Index, Krylov, Matrix, Session, Vector, options};
 use std::ops::Range;
 
 /// This rank's range of `total` numbers.
@@ -41,75 +41,46 @@ pub fn laplacian(session: &Session, n: usize, more: impl Fn(usize) -> f64) -> Ma
     })
 }
 
-const LEVELS: u32 = 5;
+const NODES: usize = 127;
 const POINTS: usize = 3;
 const GAMMA: f64 = 0.5;
 
-/// A string of nodes held at its quarter points by multipliers: `[K + γ BᵀB, Bᵀ; B, 0]`, with levels below it.
+/// A string of nodes held at its quarter points by multipliers: `[K + γ BᵀB, Bᵀ; B, 0]`.
 pub struct HeldString<'a> {
     session: &'a Session,
-    levels: Vec<Matrix>,
-    interpolations: Vec<Matrix>,
     schur: Matrix,
     nest: Matrix,
 }
 
-/// Nodes of level `l`, the coarsest being 0.
-fn nodes(l: u32) -> usize {
-    (1 << (l + 3)) - 1
-}
-
-/// The quarter point that node `i` of level `l` is, if it is one.
-fn quarter(l: u32, i: usize) -> Option<usize> {
-    let quarter = 1 << (l + 1);
+/// The quarter point that node `i` is, if it is one.
+fn quarter(i: usize) -> Option<usize> {
+    let quarter = (NODES + 1) / (POINTS + 1);
     (i + 1).is_multiple_of(quarter).then(|| (i + 1) / quarter - 1)
 }
 
 impl<'a> HeldString<'a> {
     pub fn new(session: &'a Session) -> Self {
-        // Entries 2^l / 2^finest on level l: 1 / h on nested meshes, relative to the finest.
-        let level = |l: u32| {
-            let scale = 0.5_f64.powi((LEVELS - 1 - l) as i32);
-            let n = nodes(l);
-            sparse(session, n, n, |i| {
-                let neighbours = i.checked_sub(1).into_iter().chain((i + 1 < n).then_some(i + 1));
-                let held = if quarter(l, i).is_some() { GAMMA } else { 0.0 };
-                neighbours.map(|j| (j, -scale)).chain([(i, 2.0 * scale + held)]).collect()
-            })
-        };
-        let levels: Vec<Matrix> = (0..LEVELS).map(level).collect();
-        // Coarse node j is fine node 2 j + 1; those between take the mean of their two neighbours.
-        let interpolation = |l: u32| {
-            sparse(session, nodes(l), nodes(l - 1), |i| {
-                if i % 2 == 1 {
-                    return vec![((i - 1) / 2, 1.0)];
-                }
-                let (left, right) = ((i / 2).checked_sub(1), Some(i / 2).filter(|j| *j < nodes(l - 1)));
-                left.into_iter().chain(right).map(|j| (j, 0.5)).collect()
-            })
-        };
-        let interpolations = (1..LEVELS).map(interpolation).collect();
-        let (top, n) = (LEVELS - 1, nodes(LEVELS - 1));
-        let b = sparse(session, POINTS, n, |i| (0..n).filter(|j| quarter(top, *j) == Some(i)).map(|j| (j, 1.0)).collect());
-        let b_transpose = sparse(session, n, POINTS, |j| quarter(top, j).map(|i| (i, 1.0)).into_iter().collect());
+        let n = NODES;
+        let k = sparse(session, n, n, |i| {
+            let neighbours = i.checked_sub(1).into_iter().chain((i + 1 < n).then_some(i + 1));
+            let held = if quarter(i).is_some() { GAMMA } else { 0.0 };
+            neighbours.map(|j| (j, -1.0)).chain([(i, 2.0 + held)]).collect()
+        });
+        let b = sparse(session, POINTS, n, |i| (0..n).filter(|j| quarter(*j) == Some(i)).map(|j| (j, 1.0)).collect());
+        let b_transpose = sparse(session, n, POINTS, |j| quarter(j).map(|i| (i, 1.0)).into_iter().collect());
         let zero = sparse(session, POINTS, POINTS, |i| vec![(i, 0.0)]);
         let schur = sparse(session, POINTS, POINTS, |i| vec![(i, -1.0 / GAMMA)]);
-        let nest = Matrix::nest(session, [[&levels[top as usize], &b_transpose], [&b, &zero]]).unwrap();
-        Self { session, levels, interpolations, schur, nest }
+        let nest = Matrix::nest(session, [[&k, &b_transpose], [&b, &zero]]).unwrap();
+        Self { session, schur, nest }
     }
 
-    /// GMRES with block elimination; multigrid for the nodes, unless the user has chosen otherwise.
+    /// GMRES with block elimination; a factor on every rank for the nodes, unless the user has chosen otherwise.
     pub fn solver(&self, prefix: &str) -> Krylov {
         let defaults = [
             ("ksp_type", "gmres"),
             ("ksp_pc_side", "right"),
             ("fieldsplit_u_ksp_type", "preonly"),
-            ("fieldsplit_u_pc_type", "none"),
-            ("fieldsplit_u_mg_levels_ksp_type", "richardson"),
-            ("fieldsplit_u_mg_levels_ksp_max_it", "1"),
-            ("fieldsplit_u_mg_levels_pc_type", "sor"),
-            ("fieldsplit_u_mg_coarse_ksp_type", "preonly"),
-            ("fieldsplit_u_mg_coarse_pc_type", "redundant"),
+            ("fieldsplit_u_pc_type", "redundant"),
             ("fieldsplit_lambda_ksp_type", "preonly"),
             ("fieldsplit_lambda_pc_type", "jacobi"),
         ];
@@ -127,17 +98,7 @@ impl<'a> HeldString<'a> {
 
         let solvers = preconditioner.field_split_solvers().unwrap();
         assert_eq!(solvers.len(), 2);
-        let nodes = solvers[0].preconditioner();
-        assert_eq!(nodes.prefix(), format!("{prefix}fieldsplit_u_"));
-        let interpolations = std::iter::once(None).chain(self.interpolations.iter().map(Some));
-        let levels: Vec<MultigridLevel> = self
-            .levels
-            .iter()
-            .zip(interpolations)
-            .map(|(operator, interpolation)| MultigridLevel { operator, interpolation })
-            .collect();
-        nodes.multigrid(&levels).unwrap();
-        solvers[0].set_up().unwrap();
+        assert_eq!(solvers[0].preconditioner().prefix(), format!("{prefix}fieldsplit_u_"));
         krylov
     }
 

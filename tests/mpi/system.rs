@@ -101,7 +101,7 @@ fn system_from<'a>(
     let load = load(problem, &nodal_forces(problem, session).expect("loads"));
     let blocks = SaddlePoint::new(problem, load, choice.form(), session).expect("blocks");
     let interpolations: Rc<[Interpolation]> = match choice.form() {
-        Form::Augmented => interpolations(problem, session).expect("interpolations").into(),
+        Form::Augmented => interpolations(problem, session).into(),
         Form::Plain => Rc::new([]),
     };
     let system = System::new(problem, blocks, &interpolations, choice, first, session).expect("a system");
@@ -300,6 +300,14 @@ fn check_right_hand_side(definition: &Definition, system: &System, active: &[boo
     assert!(none || apart(session, &b[unknowns..], &own) < 1e-12);
 }
 
+fn prolong(interpolation: &Interpolation, x: &Vector, y: &mut Vector) {
+    interpolation.nodes.prolong::<false>(x.values().as_chunks().0, y.values_mut().as_chunks_mut().0, &mut Default::default());
+}
+
+fn restrict(interpolation: &Interpolation, x: &Vector, y: &mut Vector) {
+    interpolation.nodes.restrict(x.values().as_chunks().0, y.values_mut().as_chunks_mut().0, &mut Default::default());
+}
+
 fn every_level_is_the_galerkin_product_of_the_next(session: &Session) {
     let mut most = 0;
     for problem in problems(session) {
@@ -310,13 +318,13 @@ fn every_level_is_the_galerkin_product_of_the_next(session: &Session) {
             assert_eq!(levels.len(), interpolations.len() + 1);
             most = most.max(levels.len());
             for (l, interpolation) in interpolations.iter().enumerate() {
-                let (mut x, mut fine) = interpolation.matrix.create_vectors().expect("vectors");
+                let [mut x, mut fine] = [levels[l], levels[l + 1]].map(|level| level.create_vectors().expect("vectors").0);
                 let first = x.range().start;
                 x.values_mut().iter_mut().enumerate().for_each(|(at, v)| *v = erratic(first + at, 0.3));
                 // What is prescribed on the coarse level moves nothing on the fine one.
-                interpolation.matrix.multiply(&x, &mut fine).expect("a product");
+                prolong(interpolation, &x, &mut fine);
                 let mut reached = x.duplicate().expect("a vector");
-                interpolation.matrix.multiply_transpose(&fine, &mut reached).expect("a product");
+                restrict(interpolation, &fine, &mut reached);
                 x.values_mut()
                     .iter_mut()
                     .zip(reached.values().iter())
@@ -325,7 +333,7 @@ fn every_level_is_the_galerkin_product_of_the_next(session: &Session) {
                 let (mut product, mut coarse, mut found) =
                     (fine.duplicate().expect("a vector"), x.duplicate().expect("a vector"), x.duplicate().expect("a vector"));
                 levels[l + 1].multiply(&fine, &mut product).expect("a product");
-                interpolation.matrix.multiply_transpose(&product, &mut coarse).expect("a product");
+                restrict(interpolation, &product, &mut coarse);
                 levels[l].multiply(&x, &mut found).expect("a product");
                 assert!(apart(session, &found.values(), &coarse.values()) < 1e-8, "level {l} of {}", levels.len());
             }

@@ -5,8 +5,8 @@ use crate::multigrid::stiffness::{Expanded, LatticeOperator};
 use crate::petsc::{Error, Factor, Krylov, Result, Session, Vector};
 use std::rc::Rc;
 
-/// Prefix of the options of the coarsest solver: that of PETSc's own multigrid, so that the defaults of `system/solver` hold here, too.
-const PREFIX: &str = "fieldsplit_u_mg_coarse_";
+/// Prefix of the options of the shared factor; `system/solver` has the defaults.
+const PREFIX: &str = "fieldsplit_u_coarsest_";
 
 /// The coarsest level: its solver, forces and solution.
 pub struct Coarsest {

@@ -2,17 +2,16 @@
 //! on nothing of PETSc's but what solves on the coarsest level.
 //!
 //! Levels with few unknowns have been brought together on fewer ranks, the small ones on one: from the first of these downwards
-//! nothing is sent, unless there are rigid motions to be found, and the other ranks wait. Where options of the user's ask for another
-//! smoother, cycle or coarse solver, and where solves fall back on stronger smoothers, PETSc's own multigrid stands in its place
-//! (`system/solver`).
+//! nothing is sent, and the other ranks wait, unless there are rigid motions to be found, or steps of CG have sums of all ranks. Where
+//! an option of the user's asks for another preconditioner, it is one of PETSc's on a matrix of all rows (`system/solver`).
 
 mod border;
 mod coarsest;
+mod conjugate_steps;
 mod level;
 
 use crate::discretisation::SMALL;
-use crate::discretisation::SystemError;
-use crate::multigrid::interpolation::{Interpolation, NodeInterpolation};
+use crate::multigrid::interpolation::Interpolation;
 use crate::multigrid::stiffness::{Stiffness, SweepHalves};
 use crate::petsc::{Action, Result, Session, Vector};
 pub use border::{Border, Sparse, scaled_inverse};
@@ -38,30 +37,30 @@ pub struct FullCycle {
 }
 
 impl FullCycle {
-    /// On the levels of a stiffness, the coarsest first, with the steps between them. `None` if there is
-    /// nothing to sweep, or if options want entries of interpolations. **Collective**
+    /// On the levels of a stiffness, the coarsest first, with the interpolations between them; smoothed by a sweep, or by so many steps
+    /// of CG. **Collective**
     fn new<'a>(
         stiffness: impl Iterator<Item = &'a Stiffness>,
         interpolations: &[Interpolation],
+        steps: usize,
         session: &Session,
-    ) -> std::result::Result<Option<Self>, SystemError> {
-        let steps: Option<Vec<Rc<NodeInterpolation>>> = interpolations.iter().map(|step| step.nodes.clone()).collect();
-        let Some(steps) = steps.filter(|steps| !steps.is_empty()) else { return Ok(None) };
+    ) -> Result<Self> {
         let mut lattices = stiffness.map(|stiffness| stiffness.lattice().clone());
         let lowest = lattices.next().expect("a coarsest level");
-        let coarsest = Coarsest::new(lowest, interpolations[0].matrix.size().1 <= SMALL, session)?;
-        let mut levels: Vec<CycleLevel> = lattices.zip(steps).map(|(rows, step)| CycleLevel::new(rows, step, session)).collect();
+        let coarsest = Coarsest::new(lowest, 2 * interpolations[0].coarse_nodes <= SMALL, session)?;
+        let mut levels: Vec<CycleLevel> =
+            lattices.zip(interpolations).map(|(rows, step)| CycleLevel::new(rows, step.nodes.clone(), steps, session)).collect();
         let most = levels.iter().map(|level| level.nodes).max();
         let last = levels.pop().expect("a level that is swept");
         levels = levels.into_iter().map(CycleLevel::with_vectors).collect();
         levels.push(last);
-        Ok(Some(Self { coarsest, levels, border: None, r: vec![[0.0; 2]; most.unwrap_or(0)] }))
+        Ok(Self { coarsest, levels, border: None, r: vec![[0.0; 2]; most.unwrap_or(0)] })
     }
 
     /// Takes over the values of the stiffness, which have changed. **Collective**
-    fn refresh(&mut self, session: &Session) -> std::result::Result<(), SystemError> {
+    fn refresh(&mut self, session: &Session) -> Result<()> {
         self.levels.iter_mut().for_each(CycleLevel::refresh);
-        Ok(self.coarsest.refresh(session)?)
+        self.coarsest.refresh(session)
     }
 
     /// Takes over unknowns beside the displacements, for the present values of the stiffness. **Collective**
@@ -187,14 +186,14 @@ impl Descent<'_> {
 pub struct Cycle(Rc<RefCell<FullCycle>>);
 
 impl Cycle {
-    /// On the levels of a stiffness, the coarsest first; `None` where there is no `FullCycle`. **Collective**
+    /// On the levels of a stiffness, the coarsest first; smoothed by a sweep, or by so many steps of CG. **Collective**
     pub fn new<'a>(
         stiffness: impl Iterator<Item = &'a Stiffness>,
         interpolations: &[Interpolation],
+        steps: usize,
         session: &Session,
-    ) -> std::result::Result<Option<Self>, SystemError> {
-        let cycle = FullCycle::new(stiffness, interpolations, session)?;
-        Ok(cycle.map(|cycle| Self(Rc::new(RefCell::new(cycle)))))
+    ) -> Result<Self> {
+        Ok(Self(Rc::new(RefCell::new(FullCycle::new(stiffness, interpolations, steps, session)?))))
     }
 
     /// `x` of `[x; p] = M⁻¹ [b; g]` for the unknowns of this rank, with the unknowns `p` of a border if there is one; `b` is not
@@ -214,7 +213,7 @@ impl Cycle {
     }
 
     /// Takes over the values of the stiffness, which have changed. **Collective**
-    pub fn refresh(&self, session: &Session) -> std::result::Result<(), SystemError> {
+    pub fn refresh(&self, session: &Session) -> Result<()> {
         self.0.borrow_mut().refresh(session)
     }
 }

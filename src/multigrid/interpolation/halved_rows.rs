@@ -98,9 +98,4 @@ impl HalvedRows {
     pub fn restrict(&self, y: &[[f64; 2]], x: &mut [[f64; 2]]) {
         self.0.iter().for_each(|row| row.restrict(y, x));
     }
-
-    /// How many nodes they have.
-    pub fn count(&self) -> usize {
-        self.0.iter().map(|row| row.count).sum()
-    }
 }

@@ -1,7 +1,7 @@
 //! Interpolation by nodes: whole macro triangles, halved rows inside of others, and a list of the other nodes.
 
-use super::Coupling;
 use super::halved_rows::{HalvedRow, HalvedRows};
+use super::parentage::Parentage;
 use super::parents::NodeParents;
 use super::whole;
 use crate::discretisation::{Scene, Space};
@@ -9,9 +9,8 @@ use crate::element::Block;
 use crate::geometry::Point;
 use crate::mesh::lattice;
 use crate::multigrid::triangle_lattice::{Lane, LatticeRoom, TriangleNodes, side_nodes};
-use crate::petsc::{Halo, Result, Session, Transfer, Vector};
+use crate::petsc::{Halo, Session};
 use std::ops::Range;
-use std::rc::Rc;
 
 /// Linear interpolation from a coarse level to the next finer one. A node takes over the value of its coarse twin, or the
 /// weighted mean of its two parents, turned from their frames into its own. Rows of prescribed fine components and columns
@@ -97,7 +96,7 @@ impl NodeInterpolation {
                 continue;
             }
             for (parent, weight) in pair.into_iter().zip(weights) {
-                let coupling = Coupling { node, parent, weight, turned: turned(fine, coarse, node, parent) };
+                let coupling = Parentage { node, parent, weight, turned: turned(fine, coarse, node, parent) };
                 push(coupling, at, place(parent), &mut weighted, &mut others);
             }
         }
@@ -125,7 +124,7 @@ impl NodeInterpolation {
 
     /// From a list of all couplings of the fine nodes of this rank. **Collective**
     pub fn of_couplings(
-        couplings: impl Iterator<Item = Coupling> + Clone,
+        couplings: impl Iterator<Item = Parentage> + Clone,
         fine: &Range<usize>,
         coarse: &Range<usize>,
         session: &Session,
@@ -264,14 +263,9 @@ impl NodeInterpolation {
             halo.give(&far, x);
         }
     }
-
-    /// Couplings that are not in halved rows.
-    pub fn stored(&self) -> usize {
-        2 * self.even.len() + self.weighted.len() + self.turned.len()
-    }
 }
 
-fn push(coupling: Coupling, at: u32, parent: u32, weighted: &mut Vec<(u32, u32, f64)>, turned: &mut Vec<(u32, u32, Block)>) {
+fn push(coupling: Parentage, at: u32, parent: u32, weighted: &mut Vec<(u32, u32, f64)>, turned: &mut Vec<(u32, u32, Block)>) {
     match coupling.turned {
         None => weighted.push((at, parent, coupling.weight)),
         Some(_) => turned.push((at, parent, coupling.block())),
@@ -290,32 +284,4 @@ pub fn turned(fine: &Space, coarse: &Space, node: usize, parent: usize) -> Optio
     };
     let (x, y) = (image(0), image(1));
     Some([[x.x, y.x], [x.y, y.y]])
-}
-
-/// An interpolation as PETSc's multigrid uses it.
-pub struct InterpolationShell(pub Rc<NodeInterpolation>);
-
-impl Transfer for InterpolationShell {
-    fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        let (x, mut y) = (x.values(), y.values_mut());
-        self.0.prolong::<false>(x.as_chunks().0, y.as_chunks_mut().0, &mut InterpolationRoom::default());
-        Ok(())
-    }
-
-    fn multiply_add(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        let (x, mut y) = (x.values(), y.values_mut());
-        self.0.prolong::<true>(x.as_chunks().0, y.as_chunks_mut().0, &mut InterpolationRoom::default());
-        Ok(())
-    }
-
-    fn multiply_transpose(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        let (x, mut y) = (x.values(), y.values_mut());
-        self.0.restrict(x.as_chunks().0, y.as_chunks_mut().0, &mut InterpolationRoom::default());
-        Ok(())
-    }
-
-    fn work(&self) -> f64 {
-        4.0 * (self.0.halved.count() + self.0.whole.iter().map(|triangle| triangle.fine.len()).sum::<usize>()) as f64
-            + 4.0 * self.0.stored() as f64
-    }
 }

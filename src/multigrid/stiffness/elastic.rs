@@ -7,7 +7,7 @@ use super::assembly::{Assembled, Assembly};
 use super::lattice_operator::LatticeOperator;
 use crate::discretisation::{Discretisation, Form, SystemError};
 use crate::geometry::Point;
-use crate::multigrid::user_options::want_entries;
+use crate::multigrid::user_options::takes_another_preconditioner;
 use crate::petsc::Session;
 use std::rc::Rc;
 
@@ -44,7 +44,7 @@ impl Elastic {
             let assembled = session.agree(assembled).map_err(SystemError::Case)?;
             let Assembled { rows, far, strips, even } = assembled;
             let lattice = LatticeOperator::new(rows, &space.own, far, &Rc::new(strips), &Rc::new(even), session)?;
-            stiffness.push(Stiffness::new(lattice, seen(form, session), session)?);
+            stiffness.push(Stiffness::new(lattice, seen(last, form, session), session)?);
         }
         Ok(Self { stiffness, load })
     }
@@ -67,9 +67,10 @@ impl Elastic {
     }
 }
 
-/// What solvers see: all rows, where something else than products and sweeps may be wanted.
-fn seen(form: Form, session: &Session) -> SolverView {
-    if form == Form::Plain || want_entries(session) { SolverView::Entries } else { SolverView::Action }
+/// What solvers of PETSc's see: all rows of the finest level, where more than its products is wanted.
+fn seen(is_finest: bool, form: Form, session: &Session) -> SolverView {
+    let are_wanted = form == Form::Plain || is_finest && takes_another_preconditioner(session);
+    if are_wanted { SolverView::Entries } else { SolverView::Action }
 }
 
 fn first_level(problem: &Discretisation, form: Form) -> usize {

@@ -10,7 +10,6 @@ use super::strip_set::Strips;
 use super::strips::Couplings;
 use super::sweep_order::SweepOrder;
 use super::sweep_rows::SweepRows;
-use crate::discretisation::Components;
 use crate::element::Block;
 use crate::petsc::{Halo, Operator, Result, Session, Vector};
 use std::cell::RefCell;
@@ -209,55 +208,32 @@ impl LatticeOperator {
         });
     }
 
-    /// The values of the columns of other ranks, while `meanwhile` works on rows that need none of them. **Collective**
-    fn fetch(&self, x: &[Components], meanwhile: impl FnOnce()) -> Vec<Components> {
-        let mut far = vec![[0.0; 2]; self.far.len()];
-        self.halo.fetch(x, &mut far, meanwhile);
-        far
+    /// `r = b - K x`. **Collective**
+    pub fn residual(&self, b: &[[f64; 2]], x: &[[f64; 2]], r: &mut [[f64; 2]]) {
+        let (stored, mut far) = (self.rows.borrow(), vec![[0.0; 2]; self.far.len()]);
+        self.halo.fetch(x, &mut far, || self.lattice_rows(&stored).residual_inside(true, b, x, r));
+        self.lattice_rows(&stored).residual_in_others(b, x, &far, r);
+    }
+
+    /// A Gauss-Seidel sweep over the nodes here, those of other ranks staying as they are. **Collective**
+    pub fn relax(&self, sweep: SweepHalves, b: &[[f64; 2]], x: &mut [[f64; 2]]) {
+        let (stored, mut far) = (self.rows.borrow(), vec![[0.0; 2]; self.far.len()]);
+        let rows = self.lattice_rows(&stored);
+        self.halo.fetch_before(x, &mut far, |x| rows.begin_to_relax(b, x));
+        rows.end_to_relax(sweep, b, x, &far);
+    }
+
+    /// `y = K x`. **Collective**
+    pub fn multiply(&self, x: &[[f64; 2]], y: &mut [[f64; 2]]) {
+        let (stored, mut far) = (self.rows.borrow(), vec![[0.0; 2]; self.far.len()]);
+        self.halo.fetch(x, &mut far, || self.lattice_rows(&stored).multiply_inside(x, y));
+        self.lattice_rows(&stored).multiply_in_others(x, &far, y);
     }
 }
 
 impl Operator for Rc<LatticeOperator> {
     fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        let (x, mut y, stored) = (x.values(), y.values_mut(), self.rows.borrow());
-        let (x, y) = (x.as_chunks().0, y.as_chunks_mut().0);
-        let far = self.fetch(x, || self.lattice_rows(&stored).multiply_inside(x, y));
-        self.lattice_rows(&stored).multiply_in_others(x, &far, y);
-        Ok(())
-    }
-
-    fn residual(&self, b: &Vector, x: &Vector, r: &mut Vector) -> Result<()> {
-        let (b, x, mut r, stored) = (b.values(), x.values(), r.values_mut(), self.rows.borrow());
-        let (b, x, r) = (b.as_chunks().0, x.as_chunks().0, r.as_chunks_mut().0);
-        let far = self.fetch(x, || self.lattice_rows(&stored).residual_inside(true, b, x, r));
-        self.lattice_rows(&stored).residual_in_others(b, x, &far, r);
-        Ok(())
-    }
-
-    fn relax(&self, b: &Vector, x: &mut Vector, from_zero: bool) -> Result<()> {
-        let (b, mut x, stored) = (b.values(), x.values_mut(), self.rows.borrow());
-        let (b, x) = (b.as_chunks().0, x.as_chunks_mut().0);
-        let (rows, mut far) = (self.lattice_rows(&stored), Vec::new());
-        if from_zero {
-            x.fill([0.0; 2]);
-            rows.begin_to_relax(b, x);
-        } else {
-            far.resize(self.far.len(), [0.0; 2]);
-            self.halo.fetch_before(x, &mut far, |x| rows.begin_to_relax(b, x));
-        }
-        rows.end_to_relax(SweepHalves::Both, b, x, &far);
-        Ok(())
-    }
-
-    fn diagonal(&self, diagonal: &mut Vector) -> Result<()> {
-        let mut values = diagonal.values_mut();
-        let pairs = values.as_chunks_mut::<2>().0;
-        let rows = self.rows.borrow();
-        for (k, &node) in rows.nodes.iter().enumerate() {
-            let block = rows.diagonal(k);
-            pairs[node as usize] = [block[0][0], block[1][1]];
-        }
-        self.each_row(|node, couplings| pairs[node] = [couplings[0].1[0][0], couplings[0].1[1][1]]);
+        LatticeOperator::multiply(self, x.values().as_chunks().0, y.values_mut().as_chunks_mut().0);
         Ok(())
     }
 

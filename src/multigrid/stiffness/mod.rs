@@ -61,12 +61,10 @@
 //! products (one of BiCGStab four, for two cycles), and no other collective; `tests/messages.rs` counts them. Only where the cycle
 //! finds rigid motions, too, each visit of a level has one.
 //!
-//! Any option of the user's that begins with `-fieldsplit_u_` brings PETSc's own multigrid back, on the same levels, as do
-//! stronger smoothers that a slow solve falls back on. Then PETSc sees a level as a shell (`petsc::Operator`): product, residual,
-//! one symmetric Gauss-Seidel sweep, diagonal, norm. Where options of the user's may want more, as another smoother, omega, or
-//! `-fieldsplit_u_pc_type hypre`, and on the coarsest level, it sees a matrix with all rows, made from the same storage and changed along with it. Where a
-//! factorisation wants one (the last rung of the ladder of solvers, the inf-sup constant), it is made first. Contact changes stored
-//! rows alone: nodes of Γ_C lie on sides of macro triangles.
+//! PETSc sees a level as a shell (`petsc::Operator`): its product and its norm. Where a preconditioner of PETSc's is asked for
+//! (`-fieldsplit_u_pc_type hypre`), it sees a matrix with all rows of the finest level, made from the same storage and changed along
+//! with it. Where a factorisation wants one (the last rung of the ladder of solvers, the inf-sup constant), it is made first. Contact
+//! changes stored rows alone: nodes of Γ_C lie on sides of macro triangles.
 //! After the stencils of hierarchical hybrid grids (Bergen, Hülsemann 2004).
 //!
 //! On every level the stiffness is assembled from its own elements, and edges between materials are macro edges, so that
@@ -103,7 +101,6 @@ pub use sweep_rows::SweepRows;
 
 use crate::discretisation::SystemError;
 use crate::element::Block;
-use crate::multigrid::user_options::want_entries;
 use crate::petsc::{Matrix, Session};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -154,8 +151,7 @@ impl Stiffness {
 
     /// Of a level without elements of its own. **Collective**
     pub fn of_rows(lattice: LatticeOperator, session: &Session) -> Result<Self, SystemError> {
-        let seen = if want_entries(session) { SolverView::Entries } else { SolverView::Action };
-        Self::new(lattice, seen, session)
+        Self::new(lattice, SolverView::Action, session)
     }
 
     /// What solvers see.
@@ -186,12 +182,9 @@ impl Stiffness {
         }
     }
 
-    /// Takes note of stored rows with other values, and makes these hold. **Collective**
+    /// Takes note of stored rows with other values, which solvers of PETSc's do not see, and makes these hold. **Collective**
     pub fn renew(&mut self, changed: Vec<u32>) -> Result<(), SystemError> {
-        self.lattice.note_changed(changed.iter().copied());
-        if self.seen == SolverView::Entries {
-            self.changed.extend(changed);
-        }
+        self.lattice.note_changed(changed.into_iter());
         self.assemble()
     }
 

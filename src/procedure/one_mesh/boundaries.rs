@@ -186,7 +186,7 @@ impl OneMesh<'_> {
         }
         if choice.form() == Form::Augmented {
             let _stage = observer.enter(Work::SetUp);
-            bodies.interpolations = interpolations(problem, session)?.into();
+            bodies.interpolations = interpolations(problem, session).into();
         }
         Ok(bodies)
     }

@@ -5,7 +5,6 @@ use super::operators::set_plain_operators;
 use super::options::Options;
 use super::prepared::Prepared;
 use crate::discretisation::{Form, SystemError};
-use crate::multigrid::GalerkinLevels;
 use crate::petsc::{self, Krylov, Session};
 use crate::system::saddle_point::SaddlePoint;
 
@@ -36,6 +35,6 @@ pub fn direct(system: &SaddlePoint, session: &Session) -> Result<Prepared, Syste
     krylov.watch()?;
     krylov.set_up()?;
     let (_replaced, bordered) = replace_action(&krylov, None, system, Form::Plain, session)?;
-    let (auxiliary, cycle, coarsest, name) = (GalerkinLevels::default(), None, None, "direct (MUMPS)".into());
-    Ok(Prepared { krylov, _replaced, bordered, auxiliary, cycle, coarsest, name })
+    let (levels, name) = (None, "direct (MUMPS)".into());
+    Ok(Prepared { krylov, _replaced, bordered, levels, name })
 }

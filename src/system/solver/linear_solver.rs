@@ -56,19 +56,16 @@ impl LinearSolver {
     /// Takes over changed blocks. **Collective**
     pub fn refresh(&mut self, system: &SaddlePoint) -> Result<(), SystemError> {
         let rung = self.rung();
-        let Some(Prepared { krylov, bordered, auxiliary, cycle, coarsest, .. }) = &mut self.prepared else { return Ok(()) };
+        let Some(Prepared { krylov, bordered, levels, .. }) = &mut self.prepared else { return Ok(()) };
         if let Some(bordered) = bordered {
             bordered.forget();
         }
         if self.form == Form::Plain {
             return set_plain_operators(krylov, system);
         }
-        auxiliary.refresh(&system.stiffness[0])?;
-        if let Some(cycle) = cycle {
+        if let Some((auxiliary, cycle)) = levels {
+            auxiliary.refresh(&system.stiffness[0])?;
             cycle.refresh(&self.session)?;
-        }
-        if let Some(rows) = coarsest {
-            rows.refresh()?;
         }
         set_operators(krylov, system, rung.preconditioning, &self.session)
     }
@@ -113,6 +110,6 @@ impl LinearSolver {
 
     /// The auxiliary levels, coarsest first. **Collective**
     pub fn auxiliary_levels(&mut self, system: &SaddlePoint) -> Result<impl Iterator<Item = &Stiffness>, SystemError> {
-        Ok(self.prepare(system)?.auxiliary.iter())
+        Ok(self.prepare(system)?.levels.iter().flat_map(|(auxiliary, _)| auxiliary.iter()))
     }
 }

@@ -1,10 +1,9 @@
 //! The solver's recipes as PETSc options. What a user gives after `--` wins over all of them.
 
-use crate::discretisation::SMALL;
+use crate::multigrid::takes_another_preconditioner;
 use crate::petsc::{Session, options};
 use crate::system::saddle_point::SchurPattern;
 use crate::system::solver::ladder::Chosen;
-use crate::system::solver::preconditioning::Preconditioning;
 
 /// Names and values of PETSc options.
 pub(super) type Options = &'static [(&'static str, &'static str)];
@@ -18,11 +17,13 @@ pub(super) const FIELD_SPLIT: Options = &[
     ("-ksp_divtol", "1e30"),
     ("-pc_type", "fieldsplit"),
     ("-fieldsplit_u_ksp_type", "preonly"),
-    // Multigrid takes the place of `none` once the block solvers exist.
+    // The cycle takes the place of `none` once the block solvers exist.
     ("-fieldsplit_u_pc_type", "none"),
     ("-fieldsplit_lambda_ksp_type", "preonly"),
-    ("-fieldsplit_u_mg_levels_pc_type", "sor"),
-    ("-fieldsplit_u_mg_coarse_ksp_type", "preonly"),
+    // So many bodies that not even auxiliary levels are small: their coarsest level is factorised by all ranks together.
+    ("-fieldsplit_u_coarsest_ksp_type", "preonly"),
+    ("-fieldsplit_u_coarsest_pc_type", "cholesky"),
+    ("-fieldsplit_u_coarsest_pc_factor_mat_solver_type", "mumps"),
 ];
 
 /// What the user has chosen of a ladder.
@@ -30,13 +31,8 @@ pub(super) fn chosen(session: &Session) -> Chosen {
     let is_of_method = |name: &str| ["-ksp_type", "-ksp_pc_side", "-ksp_norm_type"].contains(&name);
     Chosen {
         method: options::any_of_user(session, |name| is_of_method(name) || name.starts_with("-ksp_gmres_")),
-        preconditioning: options::any_of_user(session, |name| name == "-fieldsplit_u_pc_type"),
+        preconditioning: takes_another_preconditioner(session),
     }
-}
-
-/// Whether the user has changed anything about what preconditions the displacements: then it is PETSc's own multigrid, which has options.
-pub(super) fn is_changed(session: &Session) -> bool {
-    options::any_of_user(session, |name| name.starts_with("-fieldsplit_u_"))
 }
 
 /// Whether the user has changed anything about the preconditioner of the whole system or about one of its fields: then it is
@@ -46,17 +42,8 @@ pub(super) fn is_split_changed(session: &Session) -> bool {
     options::any_of_user(session, is_like)
 }
 
-/// The smoother of each preconditioning, or the factor.
-pub(super) fn preconditioning_options(preconditioning: Preconditioning) -> Options {
-    match preconditioning {
-        Preconditioning::Sweep => {
-            &[("-fieldsplit_u_mg_levels_ksp_type", "richardson"), ("-fieldsplit_u_mg_levels_ksp_max_it", "1")]
-        }
-        Preconditioning::TwoSteps => &[("-fieldsplit_u_mg_levels_ksp_type", "cg"), ("-fieldsplit_u_mg_levels_ksp_max_it", "2")],
-        Preconditioning::FourSteps => &[("-fieldsplit_u_mg_levels_ksp_type", "cg"), ("-fieldsplit_u_mg_levels_ksp_max_it", "4")],
-        Preconditioning::Factor => &[("-fieldsplit_u_pc_type", "cholesky"), ("-fieldsplit_u_pc_factor_mat_solver_type", "mumps")],
-    }
-}
+/// The factor in the place of the cycle.
+pub(super) const FACTOR: Options = &[("-fieldsplit_u_pc_type", "cholesky"), ("-fieldsplit_u_pc_factor_mat_solver_type", "mumps")];
 
 /// Unknowns up to which a factor is made by every rank for itself.
 pub(super) const MOST_REDUNDANT: usize = 10_000;
@@ -76,35 +63,5 @@ pub(super) fn lambda_options(pattern: SchurPattern, ranks: usize) -> Options {
         (SchurPattern::Pairs, _) => &[("-fieldsplit_lambda_pc_type", "pbjacobi")],
         (SchurPattern::Mixed, 1) => &[("-fieldsplit_lambda_pc_type", "lu")],
         (SchurPattern::Mixed, _) => &[("-fieldsplit_lambda_pc_type", "redundant")],
-    }
-}
-
-/// What solves on the coarsest level.
-#[derive(Clone, Copy)]
-pub(super) enum CoarseSolver {
-    /// Factorisation by the rank that has the level.
-    Alone,
-    /// Factorisation by all ranks together: so many bodies that not even auxiliary levels are small.
-    Shared,
-}
-
-impl CoarseSolver {
-    pub(super) fn of(rows: usize) -> Self {
-        if rows <= SMALL { Self::Alone } else { Self::Shared }
-    }
-
-    pub(super) fn options(self) -> Options {
-        match self {
-            // The functions of auxiliary levels may be as small as one likes: so may be pivots.
-            // Each rank factorises the block that it has: one of them all of the level, the others nothing.
-            Self::Alone => &[
-                ("-fieldsplit_u_mg_coarse_pc_type", "bjacobi"),
-                ("-fieldsplit_u_mg_coarse_sub_pc_type", "lu"),
-                ("-fieldsplit_u_mg_coarse_sub_pc_factor_zeropivot", "1e-300"),
-            ],
-            Self::Shared => {
-                &[("-fieldsplit_u_mg_coarse_pc_type", "cholesky"), ("-fieldsplit_u_mg_coarse_pc_factor_mat_solver_type", "mumps")]
-            }
-        }
     }
 }

@@ -42,6 +42,15 @@ impl Preconditioning {
         }
     }
 
+    /// Steps of CG that smooth in the place of one sweep.
+    pub fn conjugate_steps(self) -> usize {
+        match self {
+            Self::Sweep | Self::Factor => 0,
+            Self::TwoSteps => 2,
+            Self::FourSteps => 4,
+        }
+    }
+
     /// What it does, after the name of the cycle.
     pub fn words(self, cycle: &str) -> String {
         match self {

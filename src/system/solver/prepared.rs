@@ -1,7 +1,7 @@
 //! What a rung of the ladder works with, once it is set up.
 
 use super::bordered::Bordered;
-use crate::multigrid::{Cycle, Expanded, GalerkinLevels};
+use crate::multigrid::{Cycle, GalerkinLevels};
 use crate::petsc::{Krylov, ReplacedAction};
 use std::rc::Rc;
 
@@ -12,11 +12,8 @@ pub struct Prepared {
     pub _replaced: Option<ReplacedAction>,
     /// What knows of rigid motions that are eliminated, if there are any.
     pub bordered: Option<Rc<Bordered>>,
-    pub auxiliary: GalerkinLevels,
-    /// The cycle, if it is mezha's own.
-    pub cycle: Option<Cycle>,
-    /// Otherwise the rows of the coarsest level, for that of PETSc's.
-    pub coarsest: Option<Expanded>,
+    /// Auxiliary levels and the cycle, if it is that which preconditions the displacements.
+    pub levels: Option<(GalerkinLevels, Cycle)>,
     /// The solver and its preconditioning, in words.
     pub name: String,
 }
