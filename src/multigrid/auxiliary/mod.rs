@@ -7,7 +7,8 @@
 //! Linear motions are met exactly, on graded meshes and beside curved boundaries, too, and as all trees are cut from one grid
 //! the traces of two bodies in contact match on coarse levels. Measured on example 1, bilateral, two meshes of Gmsh that do not
 //! match, one rank, to 1e-8: iterations; seconds of set-up and solve; with reading and assembly, processor seconds of the whole
-//! run. The machine did other things meanwhile: compare within a column only. *Factor* is Cholesky of `K + BᵀDB` in the place of
+//! run. The machine did other things meanwhile: compare within a column only. Products and sweeps of these levels were PETSc's then,
+//! with as many iterations. *Factor* is Cholesky of `K + BᵀDB` in the place of
 //! the cycle, *BoomerAMG* likewise (for P2 below a smoothing step).
 //!
 //! | | P1, 98 thousand | P1, 961 thousand | P2, 98 thousand | P2, 966 thousand |
