@@ -20,17 +20,16 @@ const FUNCTIONS: &[&str] = &[
     "IS(CreateGeneral|Destroy|GetLocalSize|GetIndices|RestoreIndices)",
     // matrix, nest, shell
     "Mat(Create|SetSizes|SetType|Destroy|SetOption|AssemblyBegin|AssemblyEnd|ZeroEntries|Norm|GetInfo|Convert)",
-    "Mat(SetValues|SetValuesBlocked|Mult|MultAdd|MultTranspose|Residual|GetDiagonal|CreateVecs)",
-    "Mat(GetRow|RestoreRow|GetLocalSize|GetSize|GetOwnershipRange|GetOwnershipRangeColumn)",
-    "MatXAIJSetPreallocation|MatPtAP|MatDiagonalSet|MatCreateNest|MatNestGetISs",
+    "Mat(SetValues|SetValuesBlocked|Mult|MultAdd|MultTranspose|Residual|CreateVecs)",
+    "Mat(GetRow|RestoreRow|GetLocalSize|GetSize|GetOwnershipRange)",
+    "MatXAIJSetPreallocation|MatCreateNest|MatNestGetISs",
     "MatCreateShell|MatShell(SetOperation|GetContext)|PCShell(SetContext|GetContext|SetApply|SetDestroy|SetName)",
     // krylov, preconditioner
     "KSP(Create|Destroy|SetOptionsPrefix|GetOptionsPrefix|SetOperators|SetTolerances|SetFromOptions|SetUp|GetPC)",
     "KSP(SetInitialGuessNonzero|Solve|GetConvergedReason|GetConvergedReasonString|GetIterationNumber|GetResidualNorm)",
     "KSP(MonitorSet|GetResidualHistory|SetComputeEigenvalues|ComputeEigenvalues)",
-    "PC(Set|Get)ApplicationContext|PC(Destroy|SetType|GetType|SetFromOptions|SetUp|SetReusePreconditioner|GetOptionsPrefix|GetFailedReason)",
+    "PC(Set|Get)ApplicationContext|PC(Destroy|SetType|GetType|GetOptionsPrefix|GetFailedReason)",
     "PCFieldSplit(SetIS|SetType|SetSchurPre|SetSchurFactType|GetSubKSP)",
-    "PCMG(SetLevels|SetType|SetInterpolation|GetSmoother)",
     // factor
     "MatCreateSeqAIJ|MatGetOrdering|MatGetFactor|MatFactorInfoInitialize|MatFactorGetError|MatSolve|MatLUFactor(Symbolic|Numeric)",
     // partition
@@ -152,7 +151,6 @@ fn declarations(includes: &[PathBuf], file: &Path) {
         .default_enum_style(bindgen::EnumVariation::NewType { is_bitfield: false, is_global: false })
         .constified_enum("PetscBool")
         .allowlist_var("mezha_.*")
-        .allowlist_type("MatSORType")
         .layout_tests(false)
         .derive_default(true)
         .generate_comments(false);

@@ -530,6 +530,7 @@ fn words_of_petsc_end_the_run() {
         ("-ksp_type preonly", 2, "gmres, fgmres"),
         ("-ksp_type richardson", 2, "gmres, fgmres"),
         ("-fieldsplit_u_pc_mg_levels 50", 2, "mesh.refine"),
+        ("-fieldsplit_u_pc_type mg", 2, "mezha's own cycle"),
         ("-fp_trap", 2, "-fp_trap"),
     ] {
         for ranks in [1, 3] {

@@ -19,5 +19,5 @@ mod user_options;
 pub use auxiliary::GalerkinLevels;
 pub use cycle::{Border, Cycle, Sparse, scaled_inverse};
 pub use interpolation::{Interpolation, interpolations};
-pub use stiffness::{BlockPlace, ContactNeighbours, Elastic, RowPlaces, Stiffness, SweepHalves};
+pub use stiffness::{BlockPlace, ContactNeighbours, Elastic, LatticeOperator, RowPlaces, Stiffness, SweepHalves};
 pub use user_options::takes_another_preconditioner;

@@ -147,24 +147,10 @@ impl Matrix {
         petsc!(MatResidual(self.raw, b.raw(), x.raw(), r.raw()))
     }
 
-    /// Copies the diagonal. **Collective**
-    pub fn diagonal(&self, diagonal: &mut Vector) -> Result<()> {
-        petsc!(MatGetDiagonal(self.raw, diagonal.raw()))
-    }
-
     /// Largest sum of magnitudes in a row. **Collective**
     pub fn norm_infinity(&self) -> Result<f64> {
-        self.norm(ffi::NormType::NORM_INFINITY)
-    }
-
-    /// Root of the sum of squares. **Collective**
-    pub fn norm_frobenius(&self) -> Result<f64> {
-        self.norm(ffi::NormType::NORM_FROBENIUS)
-    }
-
-    fn norm(&self, kind: ffi::NormType) -> Result<f64> {
         let mut norm = 0.0;
-        petsc!(MatNorm(self.raw, kind, &mut norm))?;
+        petsc!(MatNorm(self.raw, ffi::NormType::NORM_INFINITY, &mut norm))?;
         Ok(norm)
     }
 
@@ -172,13 +158,6 @@ impl Matrix {
     pub fn row_range(&self) -> Range<usize> {
         let (mut first, mut end) = (0, 0);
         petsc!(MatGetOwnershipRange(self.raw, &mut first, &mut end)).expect("a matrix knows its rows");
-        first as usize..end as usize
-    }
-
-    /// Global numbers of the columns that go with this rank's entries of `x` in `A x`.
-    pub fn column_range(&self) -> Range<usize> {
-        let (mut first, mut end) = (0, 0);
-        petsc!(MatGetOwnershipRangeColumn(self.raw, &mut first, &mut end)).expect("a matrix knows its columns");
         first as usize..end as usize
     }
 

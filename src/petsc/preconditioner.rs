@@ -40,21 +40,18 @@ impl Preconditioner {
         words(kind)
     }
 
-    /// Reads its options. **Collective**
-    pub fn set_from_options(&self) -> Result<()> {
-        petsc!(PCSetFromOptions(self.raw))
-    }
-
-    /// Prepares it for its operators. **Collective**
-    pub fn set_up(&self) -> Result<()> {
-        petsc!(PCSetUp(self.raw))
-    }
-
     /// What its options begin with after the minus; may be empty.
     pub fn prefix(&self) -> String {
         let mut prefix = ptr::null();
         petsc!(PCGetOptionsPrefix(self.raw, &mut prefix)).expect("a preconditioner knows its prefix");
         words(prefix)
+    }
+
+    /// Whether something failed on this rank when it was prepared or applied last.
+    pub fn has_failed(&self) -> Result<bool> {
+        let mut reason = ffi::PCFailedReason::PC_NOERROR;
+        petsc!(PCGetFailedReason(self.raw, &mut reason))?;
+        Ok(reason != ffi::PCFailedReason::PC_NOERROR)
     }
 
     /// Whether its factorisation could not get the memory that it asked for.

@@ -1,8 +1,7 @@
 //! The system of one contact boundary with its state: the active set, the unknowns, and what solves it.
 
 use crate::discretisation::{Discretisation, Space, SystemError};
-use crate::multigrid::Interpolation;
-use crate::multigrid::Stiffness;
+use crate::multigrid::{Interpolation, LatticeOperator, Stiffness};
 use crate::petsc::{Matrix, Session, Vector, options};
 use crate::system::choice::SolverChoice;
 use crate::system::rigid_border::RigidBorder;
@@ -276,10 +275,11 @@ impl<'a> System<'a> {
         &self.blocks.nest
     }
 
-    /// `K + Bᵀ D B` on the levels that the solver uses, coarsest first, auxiliary ones among them. **Collective**
-    pub fn levels(&mut self) -> Result<Vec<&Matrix>, SystemError> {
+    /// Rows of `K + Bᵀ D B` on the levels that the solver uses, coarsest first, auxiliary ones among them. **Collective**
+    pub fn levels(&mut self) -> Result<Vec<Rc<LatticeOperator>>, SystemError> {
         self.bring_solver_up_to_date()?;
-        Ok(self.solver.auxiliary_levels(&self.blocks)?.chain(&self.blocks.stiffness).map(Stiffness::operator).collect())
+        let auxiliary = self.solver.auxiliary_levels(&self.blocks)?;
+        Ok(auxiliary.chain(self.blocks.stiffness.iter().map(Stiffness::lattice)).cloned().collect())
     }
 
     /// What preconditions the displacements.

@@ -10,7 +10,7 @@ use mezha::discretisation::{Discretisation, Field, Form, Space, local_strain_ene
 use mezha::element::Order;
 use mezha::geometry::{Curve, Formula};
 use mezha::mesh::{Partition, lattice};
-use mezha::multigrid::{Cycle, Elastic, interpolations};
+use mezha::multigrid::{Cycle, Elastic, Stiffness, interpolations};
 use mezha::petsc::{Krylov, Matrix, Session, Vector, options};
 use std::rc::Rc;
 
@@ -178,7 +178,8 @@ fn a_cycle_reduces_the_error(session: &Session) {
         let b = product(stored, &x);
         let whole = b.dot(&x).expect("an energy");
         let left = [0, 2, 4].map(|steps| {
-            let cycle = Cycle::new(strips.stiffness.iter(), &interpolations, steps, session).expect("a cycle");
+            let cycle =
+                Cycle::new(strips.stiffness.iter().map(Stiffness::lattice), &interpolations, steps, session).expect("a cycle");
             let mut error = x.duplicate().expect("a vector");
             cycle.apply(&mut b.values().to_vec(), &[], &mut error.values_mut()).expect("applied");
             error.axpy(-1.0, &x).expect("of one layout");

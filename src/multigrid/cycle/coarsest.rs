@@ -1,8 +1,8 @@
 //! What solves on the coarsest level: a factor on the one rank that has all of it, or where there are so many bodies that not even
 //! an auxiliary level is small, a factor that all ranks make.
 
-use crate::multigrid::stiffness::{Expanded, LatticeOperator};
-use crate::petsc::{Error, Factor, Krylov, Result, Session, Vector};
+use crate::multigrid::stiffness::LatticeOperator;
+use crate::petsc::{Error, Factor, Krylov, Matrix, Result, Session, Vector};
 use std::rc::Rc;
 
 /// Prefix of the options of the shared factor; `system/solver` has the defaults.
@@ -21,7 +21,7 @@ enum CoarsestSolver {
     Factor(Option<Factor>),
     Shared {
         solver: Krylov,
-        rows: Expanded,
+        rows: Matrix,
         b: Vector,
         x: Vector,
     },
@@ -32,20 +32,23 @@ impl Coarsest {
     ///
     /// # Errors
     /// [`Error::NotConverged`] on every rank if the level is singular.
-    pub fn new(lattice: Rc<LatticeOperator>, is_small: bool, session: &Session) -> Result<Self> {
-        let solver = if is_small { CoarsestSolver::Factor(factor(&lattice, session)?) } else { shared(&lattice, session)? };
+    pub fn new(lattice: &Rc<LatticeOperator>, is_small: bool, session: &Session) -> Result<Self> {
+        let solver = if is_small { CoarsestSolver::Factor(factor(lattice, session)?) } else { shared(lattice, session)? };
         let nodes = vec![[0.0; 2]; lattice.node_count()];
-        Ok(Self { lattice, solver, b: nodes.clone(), x: nodes })
+        Ok(Self { lattice: lattice.clone(), solver, b: nodes.clone(), x: nodes })
     }
 
     /// Takes over changed values. **Collective**
+    ///
+    /// # Errors
+    /// As of [`Coarsest::new`].
     pub fn refresh(&mut self, session: &Session) -> Result<()> {
         match &mut self.solver {
             CoarsestSolver::Factor(known) => *known = factor(&self.lattice, session)?,
             CoarsestSolver::Shared { solver, rows, .. } => {
-                rows.refresh()?;
-                solver.set_operators(&rows.matrix, &rows.matrix)?;
-                solver.set_up()?;
+                self.lattice.renew(0..self.lattice.node_count() as u32, rows)?;
+                rows.assemble()?;
+                factorise(solver, rows, session)?;
             }
         }
         Ok(())
@@ -77,11 +80,19 @@ fn factor(lattice: &LatticeOperator, session: &Session) -> Result<Option<Factor>
 }
 
 /// **Collective**
-fn shared(lattice: &Rc<LatticeOperator>, session: &Session) -> Result<CoarsestSolver> {
-    let (solver, rows) = (Krylov::new(session, PREFIX)?, Expanded::new(lattice, session)?);
-    solver.set_operators(&rows.matrix, &rows.matrix)?;
+fn shared(lattice: &LatticeOperator, session: &Session) -> Result<CoarsestSolver> {
+    let (solver, mut rows) = (Krylov::new(session, PREFIX)?, lattice.expanded(session)?);
+    solver.set_operators(&rows, &rows)?;
     solver.set_from_options()?;
-    solver.set_up()?;
-    let (x, b) = rows.matrix.create_vectors()?;
+    factorise(&solver, &mut rows, session)?;
+    let (x, b) = rows.create_vectors()?;
     Ok(CoarsestSolver::Shared { solver, rows, b, x })
+}
+
+/// Makes the shared factor of rows with new values. **Collective**
+fn factorise(solver: &Krylov, rows: &mut Matrix, session: &Session) -> Result<()> {
+    rows.set_positive_definite(true)?;
+    solver.set_operators(rows, rows)?;
+    solver.set_up()?;
+    if session.any(solver.preconditioner().has_failed()?) { Err(Factor::singular()) } else { Ok(()) }
 }

@@ -118,10 +118,11 @@ impl CycleLevel {
             None => self.lattice.lattice_rows(&stored).relax_from_zero(b, x),
         }
     }
+
     /// Steps of CG. **Collective**
     fn smooth(&mut self, from_zero: bool, b: &[[f64; 2]], x: &mut [[f64; 2]]) {
+        // With steps of CG nothing else writes `far`: zeros.
         let Self { lattice, steps: Some(steps), far, sweep_rows, .. } = self else { return };
-        far.fill([0.0; 2]);
         let sweep = |r: &[[f64; 2]], z: &mut [[f64; 2]]| {
             let stored = lattice.rows().borrow();
             z.fill([0.0; 2]);

@@ -12,7 +12,7 @@ mod level;
 
 use crate::discretisation::SMALL;
 use crate::multigrid::interpolation::Interpolation;
-use crate::multigrid::stiffness::{Stiffness, SweepHalves};
+use crate::multigrid::stiffness::{LatticeOperator, SweepHalves};
 use crate::petsc::{Action, Result, Session, Vector};
 pub use border::{Border, Sparse, scaled_inverse};
 use border::{LevelBorder, column_of};
@@ -37,19 +37,20 @@ pub struct FullCycle {
 }
 
 impl FullCycle {
-    /// On the levels of a stiffness, the coarsest first, with the interpolations between them; smoothed by a sweep, or by so many steps
+    /// On the rows of levels, the coarsest first, with the interpolations between them; smoothed by a sweep, or by so many steps
     /// of CG. **Collective**
     fn new<'a>(
-        stiffness: impl Iterator<Item = &'a Stiffness>,
+        mut levels: impl Iterator<Item = &'a Rc<LatticeOperator>>,
         interpolations: &[Interpolation],
         steps: usize,
         session: &Session,
     ) -> Result<Self> {
-        let mut lattices = stiffness.map(|stiffness| stiffness.lattice().clone());
-        let lowest = lattices.next().expect("a coarsest level");
+        let lowest = levels.next().expect("a coarsest level");
         let coarsest = Coarsest::new(lowest, 2 * interpolations[0].coarse_nodes <= SMALL, session)?;
-        let mut levels: Vec<CycleLevel> =
-            lattices.zip(interpolations).map(|(rows, step)| CycleLevel::new(rows, step.nodes.clone(), steps, session)).collect();
+        let level = |(rows, step): (&Rc<LatticeOperator>, &Interpolation)| {
+            CycleLevel::new(rows.clone(), step.nodes.clone(), steps, session)
+        };
+        let mut levels: Vec<CycleLevel> = levels.zip(interpolations).map(level).collect();
         let most = levels.iter().map(|level| level.nodes).max();
         let last = levels.pop().expect("a level that is swept");
         levels = levels.into_iter().map(CycleLevel::with_vectors).collect();
@@ -186,14 +187,14 @@ impl Descent<'_> {
 pub struct Cycle(Rc<RefCell<FullCycle>>);
 
 impl Cycle {
-    /// On the levels of a stiffness, the coarsest first; smoothed by a sweep, or by so many steps of CG. **Collective**
+    /// On the rows of levels, the coarsest first; smoothed by a sweep, or by so many steps of CG. **Collective**
     pub fn new<'a>(
-        stiffness: impl Iterator<Item = &'a Stiffness>,
+        levels: impl Iterator<Item = &'a Rc<LatticeOperator>>,
         interpolations: &[Interpolation],
         steps: usize,
         session: &Session,
     ) -> Result<Self> {
-        Ok(Self(Rc::new(RefCell::new(FullCycle::new(stiffness, interpolations, steps, session)?))))
+        Ok(Self(Rc::new(RefCell::new(FullCycle::new(levels, interpolations, steps, session)?))))
     }
 
     /// `x` of `[x; p] = M⁻¹ [b; g]` for the unknowns of this rank, with the unknowns `p` of a border if there is one; `b` is not

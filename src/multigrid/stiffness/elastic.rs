@@ -5,7 +5,7 @@ use super::SolverView;
 use super::Stiffness;
 use super::assembly::{Assembled, Assembly};
 use super::lattice_operator::LatticeOperator;
-use crate::discretisation::{Discretisation, Form, SystemError};
+use crate::discretisation::{Discretisation, Form, SMALL, SystemError};
 use crate::geometry::Point;
 use crate::multigrid::user_options::takes_another_preconditioner;
 use crate::petsc::Session;
@@ -44,7 +44,7 @@ impl Elastic {
             let assembled = session.agree(assembled).map_err(SystemError::Case)?;
             let Assembled { rows, far, strips, even } = assembled;
             let lattice = LatticeOperator::new(rows, &space.own, far, &Rc::new(strips), &Rc::new(even), session)?;
-            stiffness.push(Stiffness::new(lattice, seen(last, form, session), session)?);
+            stiffness.push(Stiffness::new(lattice, seen(problem, last, form, session), session)?);
         }
         Ok(Self { stiffness, load })
     }
@@ -67,9 +67,11 @@ impl Elastic {
     }
 }
 
-/// What solvers of PETSc's see: all rows of the finest level, where more than its products is wanted.
-fn seen(is_finest: bool, form: Form, session: &Session) -> SolverView {
-    let are_wanted = form == Form::Plain || is_finest && takes_another_preconditioner(session);
+/// What solvers of PETSc's see of a level: all rows of the finest one, where more than its products is wanted, or where there is no
+/// other, so that a factor stands in the place of the cycle.
+fn seen(problem: &Discretisation, is_finest: bool, form: Form, session: &Session) -> SolverView {
+    let is_alone = problem.spaces.len() == 1 && 2 * problem.finest().numbering.node_count() <= SMALL;
+    let are_wanted = form == Form::Plain || is_finest && (is_alone || takes_another_preconditioner(session));
     if are_wanted { SolverView::Entries } else { SolverView::Action }
 }
 

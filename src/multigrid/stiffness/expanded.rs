@@ -1,10 +1,9 @@
-//! All rows made into a matrix of PETSc's, as factorisations and Galerkin products want it.
+//! All rows made into a matrix of PETSc's, as factorisations want it.
 
 use super::lattice_operator::LatticeOperator;
 use super::stored_rows::StoredRows;
 use crate::element::Block;
 use crate::petsc::{Index, Matrix, Result, Session};
-use std::rc::Rc;
 
 impl LatticeOperator {
     /// The same with all rows stored. **Collective**
@@ -42,27 +41,6 @@ impl LatticeOperator {
         let here = rows.near.couplings(k).map(|(column, block)| (self.own.start + column as usize, *block));
         let there = rows.far.couplings(k).map(|(column, block)| (self.far[column as usize], *block));
         row.insert(matrix, self.own.start + rows.nodes[k] as usize, here.chain(there))
-    }
-}
-
-/// A level with a matrix of all its rows, for what solves on it.
-pub struct Expanded {
-    lattice: Rc<LatticeOperator>,
-    /// The rows.
-    pub matrix: Matrix,
-}
-
-impl Expanded {
-    /// **Collective**
-    pub fn new(lattice: &Rc<LatticeOperator>, session: &Session) -> Result<Self> {
-        Ok(Self { lattice: lattice.clone(), matrix: lattice.expanded(session)? })
-    }
-
-    /// Takes over the values of the rows, which have changed. **Collective**
-    pub fn refresh(&mut self) -> Result<()> {
-        let count = self.lattice.rows().borrow().nodes().len() as u32;
-        self.lattice.renew(0..count, &mut self.matrix)?;
-        self.matrix.assemble()
     }
 }
 

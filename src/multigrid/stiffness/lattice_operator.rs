@@ -173,11 +173,6 @@ impl LatticeOperator {
         self.far.len()
     }
 
-    /// The strips.
-    pub fn strips(&self) -> &Rc<Strips> {
-        &self.strips
-    }
-
     /// The even macro triangles.
     pub fn even(&self) -> &Rc<EvenTriangles> {
         &self.even

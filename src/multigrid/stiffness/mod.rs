@@ -59,7 +59,7 @@
 //! sweep, are worked on. The product of the saddle point is a shell, too (`nest_product`): PETSc's nest finds the parts of its
 //! vectors by a sum over all ranks, four in each product. So an iteration of GMRES has two sums over all ranks for its inner
 //! products (one of BiCGStab four, for two cycles), and no other collective; `tests/messages.rs` counts them. Only where the cycle
-//! finds rigid motions, too, each visit of a level has one.
+//! finds rigid motions, too, each visit of a level has one, and where steps of CG smooth, each of these has two.
 //!
 //! PETSc sees a level as a shell (`petsc::Operator`): its product and its norm. Where a preconditioner of PETSc's is asked for
 //! (`-fieldsplit_u_pc_type hypre`), it sees a matrix with all rows of the finest level, made from the same storage and changed along
@@ -93,7 +93,6 @@ mod sweep_rows;
 mod triangle_kernel;
 
 pub use elastic::Elastic;
-pub use expanded::Expanded;
 pub use lattice_operator::LatticeOperator;
 pub use stored_rows::{BlockPlace, Part, StoredRows};
 pub use strip_kernel::SweepHalves;
@@ -149,11 +148,6 @@ impl Stiffness {
         Ok(Self { lattice, matrix, seen, changed: Vec::new() })
     }
 
-    /// Of a level without elements of its own. **Collective**
-    pub fn of_rows(lattice: LatticeOperator, session: &Session) -> Result<Self, SystemError> {
-        Self::new(lattice, SolverView::Action, session)
-    }
-
     /// What solvers see.
     pub fn operator(&self) -> &Matrix {
         &self.matrix
@@ -180,12 +174,6 @@ impl Stiffness {
         if self.seen == SolverView::Entries {
             self.changed.push(places.stored);
         }
-    }
-
-    /// Takes note of stored rows with other values, which solvers of PETSc's do not see, and makes these hold. **Collective**
-    pub fn renew(&mut self, changed: Vec<u32>) -> Result<(), SystemError> {
-        self.lattice.note_changed(changed.into_iter());
-        self.assemble()
     }
 
     /// Makes added blocks hold. **Collective**

@@ -9,7 +9,8 @@
 //!
 //! What rounding takes from the couplings of a row is given to its diagonal block: so translations keep their forces to the last
 //! digit, and energies are changed by 6e-8 (λ + 2μ)/μ of that of the gradients of a displacement, not of its size. A support by
-//! springs that are very much stiffer in one direction than the body would change it by more: then rows stay as they are.
+//! springs that are very much stiffer in one direction than the body would change it by more: then rows are read in double precision,
+//! too, from where they are stored, if none shares its blocks.
 
 use super::lanes::Lanes;
 use super::registers::on_rows;

@@ -34,6 +34,10 @@ pub fn refuse_options(session: &Session) -> Result<(), RunError> {
     if let Some((name, why)) = REFUSED.iter().find(|(name, _)| options::get(session, name).is_some()) {
         return Err(RunError::Input(format!("PETSc option {name} {why}")));
     }
+    if options::get(session, "-fieldsplit_u_pc_type").is_some_and(|kind| kind.eq_ignore_ascii_case("mg")) {
+        let why = "PETSc does not know the levels; without this option mezha's own cycle works on them";
+        return Err(RunError::Input(format!("PETSc option -fieldsplit_u_pc_type mg cannot be: {why}")));
+    }
     match options::get(session, "-ksp_type").filter(|method| !METHODS.contains(&method.to_lowercase().as_str())) {
         None => Ok(()),
         Some(method) => Err(RunError::Input(format!(

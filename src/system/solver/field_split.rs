@@ -8,7 +8,7 @@ use super::options::{FACTOR, FIELD_SPLIT, MOST_REDUNDANT, Options, REDUNDANT_FAC
 use super::preconditioning::Preconditioning;
 use super::prepared::Prepared;
 use crate::discretisation::{Form, SystemError};
-use crate::multigrid::{Cycle, GalerkinLevels, Interpolation, takes_another_preconditioner};
+use crate::multigrid::{Cycle, GalerkinLevels, Interpolation, Stiffness, takes_another_preconditioner};
 use crate::petsc::{self, Action, Krylov, Preconditioner, ReplacedAction, Session};
 use crate::system::saddle_point::SaddlePoint;
 use std::rc::Rc;
@@ -80,8 +80,8 @@ fn levels(
     session: &Session,
 ) -> Result<(GalerkinLevels, Cycle), SystemError> {
     let steps: Vec<_> = interpolations.iter().filter_map(|step| step.coarsening.clone()).collect();
-    let auxiliary = GalerkinLevels::new(&system.stiffness[0], &steps, session)?;
-    let all = auxiliary.iter().chain(&system.stiffness);
+    let auxiliary = GalerkinLevels::new(system.stiffness[0].lattice(), &steps, session)?;
+    let all = auxiliary.iter().chain(system.stiffness.iter().map(Stiffness::lattice));
     let cycle = Cycle::new(all, interpolations, preconditioning.conjugate_steps(), session)?;
     let solver = preconditioner.field_split_solvers()?.swap_remove(0);
     solver.preconditioner().set_action("multigrid F-cycle on strips and stored rows", cycle.action())?;

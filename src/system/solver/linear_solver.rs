@@ -9,7 +9,7 @@ use super::options::chosen;
 use super::preconditioning::Preconditioning;
 use super::prepared::Prepared;
 use crate::discretisation::{Form, SystemError};
-use crate::multigrid::{Interpolation, Stiffness};
+use crate::multigrid::{Interpolation, LatticeOperator};
 use crate::petsc::Session;
 use crate::system::choice::SolverChoice;
 use crate::system::saddle_point::SaddlePoint;
@@ -64,7 +64,7 @@ impl LinearSolver {
             return set_plain_operators(krylov, system);
         }
         if let Some((auxiliary, cycle)) = levels {
-            auxiliary.refresh(&system.stiffness[0])?;
+            auxiliary.refresh(system.stiffness[0].lattice());
             cycle.refresh(&self.session)?;
         }
         set_operators(krylov, system, rung.preconditioning, &self.session)
@@ -108,8 +108,8 @@ impl LinearSolver {
         self.rung().preconditioning
     }
 
-    /// The auxiliary levels, coarsest first. **Collective**
-    pub fn auxiliary_levels(&mut self, system: &SaddlePoint) -> Result<impl Iterator<Item = &Stiffness>, SystemError> {
+    /// Rows of the auxiliary levels, coarsest first. **Collective**
+    pub fn auxiliary_levels(&mut self, system: &SaddlePoint) -> Result<impl Iterator<Item = &Rc<LatticeOperator>>, SystemError> {
         Ok(self.prepare(system)?.levels.iter().flat_map(|(auxiliary, _)| auxiliary.iter()))
     }
 }
