@@ -10,7 +10,7 @@ use mezha::discretisation::{Discretisation, Field, Form, Space, local_strain_ene
 use mezha::element::Order;
 use mezha::geometry::{Curve, Formula};
 use mezha::mesh::{Partition, lattice};
-use mezha::multigrid::{Cycle, Elastic, Stiffness, interpolations};
+use mezha::multigrid::{Cycle, Elastic, Stiffness, SweepHalves, interpolations};
 use mezha::petsc::{Krylov, Matrix, Session, Vector, options};
 use std::rc::Rc;
 
@@ -21,6 +21,7 @@ fn main() -> std::process::ExitCode {
             strips_act_like_stored_rows,
             expanded_strips_are_the_stored_matrix,
             the_energy_of_a_product_is_that_of_the_triangles,
+            a_sweep_is_symmetric_and_reduces_the_error,
             a_cycle_reduces_the_error,
             solvers_of_petsc_take_strips,
             halved_rows_interpolate_linear_motions_exactly,
@@ -97,8 +98,15 @@ fn strips_act_like_stored_rows(session: &Session) {
     for problem in problems(session) {
         let [strips, stored] = both(&problem, session);
         assert!(strips.stiffness.last().expect("levels").has_strips(), "there is something to compare");
+        let (x, b) = (erratic(&problem, finest(&stored), 0.3), erratic(&problem, finest(&stored), 0.7));
+        let [left, right] = [&strips, &stored].map(|elastic| {
+            let mut r = x.duplicate().expect("a vector");
+            let lattice = elastic.stiffness[elastic.stiffness.len() - 1].lattice();
+            lattice.residual(b.values().as_chunks().0, x.values().as_chunks().0, r.values_mut().as_chunks_mut().0);
+            r
+        });
+        assert!(apart(left, &right) < 1e-14);
         let (strips, stored) = (finest(&strips), finest(&stored));
-        let x = erratic(&problem, stored, 0.3);
         assert!(apart(product(strips, &x), &product(stored, &x)) < 1e-14);
         let [a, b] = [strips, stored].map(|matrix| matrix.norm_infinity().expect("a norm"));
         assert!((a / b - 1.0).abs() < 1e-14);
@@ -161,6 +169,33 @@ fn the_energy_of_a_product_is_that_of_the_triangles(session: &Session) {
             assert!((work[0] + expected).abs() < 1e-10 * whole, "{order:?}, refine = {refine}: {} {expected}", work[0]);
             assert!(expected.abs() > 1e-6 * whole, "there is something to compare");
         }
+    }
+}
+
+/// One sweep from zero.
+fn swept(elastic: &Elastic, b: &Vector) -> Vector {
+    let mut x = b.duplicate().expect("a vector");
+    x.set(0.0).expect("zeros");
+    let lattice = elastic.stiffness[elastic.stiffness.len() - 1].lattice();
+    lattice.relax(SweepHalves::Both, b.values().as_chunks().0, x.values_mut().as_chunks_mut().0);
+    x
+}
+
+fn a_sweep_is_symmetric_and_reduces_the_error(session: &Session) {
+    for problem in problems(session) {
+        let both = both(&problem, session);
+        let stored = finest(&both[1]);
+        let [a, b] = [0.2, 0.9].map(|seed| erratic(&problem, stored, seed));
+        let [forth, back] = [(&a, &b), (&b, &a)].map(|(a, b)| swept(&both[0], a).dot(b).expect("an inner product"));
+        assert!((forth / back - 1.0).abs() < 1e-12, "{forth} {back}");
+        // In the energy norm, and not worse than with all rows stored.
+        let left = both.each_ref().map(|elastic| {
+            let mut error = swept(elastic, &product(stored, &a));
+            error.axpy(-1.0, &a).expect("of one layout");
+            product(stored, &error).dot(&error).expect("an energy")
+        });
+        let whole = product(stored, &a).dot(&a).expect("an energy");
+        assert!(left[0] < 0.2 * whole && left[0] < 1.1 * left[1], "{left:?} of {whole}");
     }
 }
 
