@@ -78,7 +78,7 @@ pub use edge_shape::EdgeShape;
 pub use faults::Slit;
 pub use file::{parse_gmsh, parse_joined, read_bytes, read_gmsh, read_regular, surfaces, touching_surfaces};
 pub use file_place::FilePlace;
-pub use levels::{BoundaryEdge, EdgeNode, Level, Numbering, Shapes, Strip, TriangleNumbers, levels};
+pub use levels::{BoundaryEdge, EdgeNode, Level, Numbering, Shapes, TriangleNumbers, levels};
 pub use macro_mesh::{BodyPiece, Boundary, MacroEdge, MacroMesh, MacroTriangle, Region, Surface};
 pub use partition::{Graph, Partition, middle_of_group};
 pub use refined::{BisectedMesh, Cells, Origin};

@@ -1,6 +1,6 @@
 //! How much memory a run will take, before it takes it.
 //!
-//! Rows of the stiffness are counted, since bent macro triangles store all of theirs and even ones next to none; all else goes
+//! Rows of the stiffness are counted, since bent and graded macro triangles store all of theirs and even ones next to none; all else goes
 //! with the unknowns of the finest level and with the macro triangles. Processes and libraries, some 60 MB for each rank, are
 //! there already when this is asked.
 
@@ -101,8 +101,8 @@ fn memory_of_partitions(scene: &Scene, levels: &[Level]) -> f64 {
 /// Nodes of a rank whose rows are not stored.
 fn nodes_not_stored(scene: &Scene, level: Level, rank: usize) -> usize {
     let own = scene.partition.triangles_of(rank).iter();
-    let even = if level.is_whole() { lattice::inner_count(level.intervals) } else { level.nodes_in_strips() };
-    own.map(|&triangle| scene.mesh.nodes_in_strips(triangle as usize, level, even)).sum()
+    let whole = own.filter(|triangle| scene.mesh.is_whole(**triangle as usize, level)).count();
+    whole * lattice::inner_count(level.intervals)
 }
 
 #[cfg(test)]

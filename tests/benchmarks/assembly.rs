@@ -1,4 +1,4 @@
-//! Stiffness of all levels at a million unknowns: seconds and memory, with all rows stored and with strips.
+//! Stiffness of all levels at a million unknowns: seconds and memory, with all rows stored and with even macro triangles as wholes.
 //!
 //! `cargo bench --bench assembly --no-run` names the program; `mpirun -n 2 PROGRAM [P1] [P2]` runs it. Prints one line for
 //! each element order and form: seconds of the slowest rank (median of five) and the growth of resident memory over all
@@ -20,7 +20,7 @@ fn main() {
         if wanted.is_empty() || wanted.contains(&format!("{order:?}")) {
             let scene = bars::scene(&session, order, refine, false);
             let problem = Discretisation::new(scene, &session).expect("a discretisation");
-            measure(&session, &problem, Form::Augmented, &format!("{order:?}, all levels, strips"));
+            measure(&session, &problem, Form::Augmented, &format!("{order:?}, all levels, whole"));
             measure(&session, &problem, Form::Plain, &format!("{order:?}, finest level, stored"));
         }
     }

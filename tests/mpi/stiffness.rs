@@ -1,4 +1,4 @@
-//! Strips and halved rows against stored matrices, on 1, 2 and 3 ranks.
+//! Even macro triangles and halved rows against stored matrices, on 1, 2 and 3 ranks.
 
 #[path = "../support/bars.rs"]
 mod bars;
@@ -18,12 +18,12 @@ fn main() -> std::process::ExitCode {
     Suite {
         options: (&[], &[]),
         checks: named![
-            strips_act_like_stored_rows,
-            expanded_strips_are_the_stored_matrix,
+            even_triangles_act_like_stored_rows,
+            expanded_even_triangles_are_the_stored_matrix,
             the_energy_of_a_product_is_that_of_the_triangles,
             a_sweep_is_symmetric_and_reduces_the_error,
             a_cycle_reduces_the_error,
-            solvers_of_petsc_take_strips,
+            solvers_of_petsc_take_even_triangles,
             halved_rows_interpolate_linear_motions_exactly,
             halved_rows_are_transposed,
         ],
@@ -60,7 +60,7 @@ fn lopsided(session: &Session) -> Discretisation {
     Discretisation::new(scene, session).expect("a discretisation")
 }
 
-/// The finest stiffness with strips, and with all rows stored.
+/// The stiffness with even macro triangles as wholes, and with all rows stored.
 fn both(problem: &Discretisation, session: &Session) -> [Elastic; 2] {
     let load = vec![0.0; problem.finest().local_unknowns()];
     [Form::Augmented, Form::Plain].map(|form| Elastic::alone(problem, load.clone(), form, session).expect("a stiffness"))
@@ -94,29 +94,30 @@ fn product(matrix: &Matrix, x: &Vector) -> Vector {
     y
 }
 
-fn strips_act_like_stored_rows(session: &Session) {
+fn even_triangles_act_like_stored_rows(session: &Session) {
     for problem in problems(session) {
-        let [strips, stored] = both(&problem, session);
-        assert!(strips.stiffness.last().expect("levels").has_strips(), "there is something to compare");
+        let [whole, stored] = both(&problem, session);
+        let lattice = whole.stiffness[whole.stiffness.len() - 1].lattice();
+        assert!(lattice.rows().borrow().nodes().len() < lattice.node_count(), "there is something to compare");
         let (x, b) = (erratic(&problem, finest(&stored), 0.3), erratic(&problem, finest(&stored), 0.7));
-        let [left, right] = [&strips, &stored].map(|elastic| {
+        let [left, right] = [&whole, &stored].map(|elastic| {
             let mut r = x.duplicate().expect("a vector");
             let lattice = elastic.stiffness[elastic.stiffness.len() - 1].lattice();
             lattice.residual(b.values().as_chunks().0, x.values().as_chunks().0, r.values_mut().as_chunks_mut().0);
             r
         });
         assert!(apart(left, &right) < 1e-14);
-        let (strips, stored) = (finest(&strips), finest(&stored));
-        assert!(apart(product(strips, &x), &product(stored, &x)) < 1e-14);
-        let [a, b] = [strips, stored].map(|matrix| matrix.norm_infinity().expect("a norm"));
+        let (whole, stored) = (finest(&whole), finest(&stored));
+        assert!(apart(product(whole, &x), &product(stored, &x)) < 1e-14);
+        let [a, b] = [whole, stored].map(|matrix| matrix.norm_infinity().expect("a norm"));
         assert!((a / b - 1.0).abs() < 1e-14);
     }
 }
 
-fn expanded_strips_are_the_stored_matrix(session: &Session) {
+fn expanded_even_triangles_are_the_stored_matrix(session: &Session) {
     for problem in problems(session) {
-        let [strips, stored] = both(&problem, session);
-        let expanded = strips.stiffness.last().expect("levels").expanded(session).expect("a matrix").expect("strips");
+        let [whole, stored] = both(&problem, session);
+        let expanded = whole.stiffness.last().expect("levels").expanded(session).expect("a matrix").expect("not stored");
         let stored = finest(&stored);
         assert_eq!(expanded.nonzeros().expect("counted"), stored.nonzeros().expect("counted"));
         let x = erratic(&problem, stored, 0.1);
@@ -207,32 +208,32 @@ fn a_cycle_reduces_the_error(session: &Session) {
         let on = vec!["bottom".into(), "top".into()];
         scene.supports.push(Support { name: "ends".into(), on, at: None, ux: None, uy: zero, normal: None });
         let problem = Discretisation::new(scene, session).expect("a discretisation");
-        let [strips, stored] = both(&problem, session);
+        let [whole, stored] = both(&problem, session);
         let (interpolations, stored) = (interpolations(&problem, session), finest(&stored));
         let x = erratic(&problem, stored, 0.2);
         let b = product(stored, &x);
-        let whole = b.dot(&x).expect("an energy");
+        let energy = b.dot(&x).expect("an energy");
         let left = [0, 2, 4].map(|steps| {
             let cycle =
-                Cycle::new(strips.stiffness.iter().map(Stiffness::lattice), &interpolations, steps, session).expect("a cycle");
+                Cycle::new(whole.stiffness.iter().map(Stiffness::lattice), &interpolations, steps, session).expect("a cycle");
             let mut error = x.duplicate().expect("a vector");
             cycle.apply(&mut b.values().to_vec(), &[], &mut error.values_mut()).expect("applied");
             error.axpy(-1.0, &x).expect("of one layout");
-            product(stored, &error).dot(&error).expect("an energy") / whole
+            product(stored, &error).dot(&error).expect("an energy") / energy
         });
         assert!(left[0] < 0.05 && left[1] < 0.5 * left[0] && left[2] < 0.5 * left[1], "{left:?}");
     }
 }
 
-fn solvers_of_petsc_take_strips(session: &Session) {
-    options::set_default(session, "-strips_ksp_type", "cg").expect("an option");
-    options::set_default(session, "-strips_pc_type", "none").expect("an option");
+fn solvers_of_petsc_take_even_triangles(session: &Session) {
+    options::set_default(session, "-whole_ksp_type", "cg").expect("an option");
+    options::set_default(session, "-whole_pc_type", "none").expect("an option");
     let problem = &problems(session)[0];
-    let [strips, stored] = both(problem, session);
+    let [whole, stored] = both(problem, session);
     let x = erratic(problem, finest(&stored), 0.4);
     let b = product(finest(&stored), &x);
-    let krylov = Krylov::new(session, "strips_").expect("a solver");
-    krylov.set_operators(finest(&strips), finest(&strips)).expect("operators");
+    let krylov = Krylov::new(session, "whole_").expect("a solver");
+    krylov.set_operators(finest(&whole), finest(&whole)).expect("operators");
     krylov.set_tolerance(1e-8, 2000).expect("a tolerance");
     krylov.set_from_options().expect("options");
     let mut found = x.duplicate().expect("a vector");

@@ -4,10 +4,8 @@ mod edge_trace;
 mod grading;
 mod hierarchy;
 mod numbering;
-mod strip;
 mod work;
 
 pub use edge_trace::{BoundaryEdge, EdgeNode};
 pub use hierarchy::Shapes;
 pub use numbering::{Level, Numbering, TriangleNumbers, levels};
-pub use strip::Strip;

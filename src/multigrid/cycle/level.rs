@@ -74,8 +74,8 @@ impl CycleLevel {
         }
         let Self { lattice, far, step, room, .. } = self;
         let stored = lattice.rows().borrow();
-        let (even, rows) = (lattice.even(), lattice.lattice_rows(&stored));
-        lattice.halo().fetch(x, far, || rows.residual_inside(false, b, x, r));
+        let even = lattice.even();
+        lattice.halo().fetch(x, far, || ());
         stored.residual(0..stored.nodes().len(), b, x, far, r);
         step.restrict_from(even.groups(), |k, own| even.residual_of(k, b, x, far, own), r, below, room);
     }

@@ -1,4 +1,4 @@
-//! The multigrid F-cycle of mezha's own: it works on strips and stored rows directly, and
+//! The multigrid F-cycle of mezha's own: it works on even macro triangles and stored rows directly, and
 //! on nothing of PETSc's but what solves on the coarsest level.
 //!
 //! Levels with few unknowns have been brought together on fewer ranks, the small ones on one: from the first of these downwards

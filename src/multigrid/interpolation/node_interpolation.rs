@@ -63,7 +63,7 @@ impl NodeInterpolation {
         let mut here: Vec<u32> = fine.numbering.partition().triangles_of(rank).iter().copied().filter(is_here).collect();
         here.sort_unstable();
         let (whole, others): (Vec<u32>, Vec<u32>) =
-            here.into_iter().partition(|&triangle| level.is_whole() && scene.mesh.is_even(triangle as usize, level));
+            here.into_iter().partition(|&triangle| scene.mesh.is_whole(triangle as usize, level));
         let halved = HalvedRows::new(scene, fine, coarse, &others);
         let n = level.intervals;
         let left_out = |triangle: u32, j: usize| match whole.binary_search(&triangle) {

@@ -1,19 +1,16 @@
 //! Assembly of the stiffness of one level: each rank makes the whole rows of its own nodes, without a word to the others.
 
 use super::ContactNeighbours;
+use super::couplings::Couplings;
 use super::even_triangles::EvenTriangles;
 use super::pattern::RowColumns;
-use super::registers::strip_kernel;
 use super::stored_rows::{BlockColumn, StoredRows, place};
-use super::strip_set::{Strips, TriangleStrips};
-use super::strips::{Couplings, StripNodes};
 use crate::body::{Constraint, MacroStiffness, neighbours, one_stiffness, one_triangle};
 use crate::discretisation::{Scene, Space};
 use crate::element::{BadJacobian, Block, Order, PlaneLaw};
 use crate::geometry::Point;
-use crate::mesh::{Level, Strip, TriangleNumbers, lattice};
+use crate::mesh::{Level, TriangleNumbers, lattice};
 use crate::multigrid::triangle_lattice::{TriangleNodes, side_nodes};
-use std::collections::BTreeMap;
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -35,8 +32,6 @@ struct AssemblyPart {
     is_own: bool,
     /// Whether all of its inner rows are alike and not stored.
     is_whole: bool,
-    /// Row by row; none if it is whole.
-    strips: Vec<Strip>,
 }
 
 /// The stiffness of a level on this rank.
@@ -45,24 +40,23 @@ pub struct Assembled {
     pub rows: StoredRows,
     /// Columns of other ranks, ascending.
     pub far: Vec<usize>,
+    /// Inner nodes of each macro triangle whose inner rows are stored, ascending.
+    pub inside: Vec<Range<usize>>,
     /// The other rows.
-    pub strips: Strips,
     pub even: EvenTriangles,
 }
 
 impl<'a> Assembly<'a> {
-    /// With strips, or with all rows stored.
-    pub fn new(scene: &'a Scene, space: &'a Space, with_strips: bool, rank: usize) -> Self {
+    /// With even macro triangles as wholes, or with all rows stored.
+    pub fn new(scene: &'a Scene, space: &'a Space, with_whole: bool, rank: usize) -> Self {
         let level = space.numbering.level;
         let partition = space.numbering.partition();
         let part = |&triangle: &u32| {
             let triangle = triangle as usize;
             let numbers = space.numbering.triangle(&scene.mesh, triangle);
             let is_own = partition.owner(triangle as u32) == rank;
-            let is_repeated = is_own && with_strips && !level.is_one_triangle();
-            let is_whole = is_repeated && level.is_whole() && scene.mesh.is_even(triangle, level);
-            let strips = if is_repeated && !is_whole { scene.mesh.strips(triangle, level) } else { Vec::new() };
-            let part = AssemblyPart { triangle, numbers, is_own, is_whole, strips };
+            let is_whole = is_own && with_whole && scene.mesh.is_whole(triangle, level);
+            let part = AssemblyPart { triangle, numbers, is_own, is_whole };
             (is_own || touches(level.intervals, space, &part.numbers)).then_some(part)
         };
         let mut triangles = [partition.triangles_of(rank), partition.of_others_with_nodes(rank)].concat();
@@ -82,7 +76,7 @@ impl<'a> Assembly<'a> {
     pub fn assemble(&self, contact: &ContactNeighbours, mut lift: impl FnMut(usize, Point)) -> Result<Assembled, BadJacobian> {
         let laws = self.scene.laws();
         let (mut rows, far) = self.pattern(contact);
-        let mut strips = Strips::default();
+        let mut inside = Vec::new();
         let (mut couplings, mut triangles) = (Vec::new(), Vec::new());
         for part in &self.parts {
             let (mesh, level) = (&self.scene.mesh, self.space.numbering.level);
@@ -101,7 +95,7 @@ impl<'a> Assembly<'a> {
                 couplings.push(Couplings::of_rows(&stiffness, level.order));
                 triangles.push(TriangleNodes::new(&part.numbers, self.space, &self.space.own, &far));
             } else if part.is_own {
-                self.add_strips(part, &stiffness, &mut strips);
+                inside.push(self.inner_nodes(part));
             }
         }
         self.add_springs(&far, &mut rows, &mut lift);
@@ -110,9 +104,9 @@ impl<'a> Assembly<'a> {
         if !self.space.numbering.level.is_one_triangle() {
             rows.share(contact.range(self.space.own.clone()).map(|(node, _)| node - self.space.own.start));
         }
-        strips.triangles.sort_unstable_by_key(|triangle| triangle.nodes.start);
+        inside.sort_unstable_by_key(|nodes: &Range<usize>| nodes.start);
         let even = EvenTriangles::new(self.space.numbering.level.intervals, Rc::new(couplings), triangles);
-        Ok(Assembled { rows, far, strips, even })
+        Ok(Assembled { rows, far, inside, even })
     }
 
     /// The stored rows with zeros, and their columns of other ranks.
@@ -150,16 +144,15 @@ impl<'a> Assembly<'a> {
         couplings.into_rows(self.nodes.clone(), own, of_sides)
     }
 
-    /// Nodes of this rank outside of strips, ascending.
+    /// Nodes of this rank that do not lie inside of whole macro triangles, ascending.
     fn stored_nodes(&self) -> Vec<u32> {
-        let strips = self.parts.iter().flat_map(|part| part.strips.iter().map(move |strip| (part, strip)));
-        let whole = self.parts.iter().filter(|part| part.is_whole).map(|part| self.inner_nodes(part));
-        let mut strips: Vec<_> = strips.map(|(part, strip)| self.strip_nodes(part, strip).range()).chain(whole).collect();
-        strips.sort_unstable_by_key(|nodes| nodes.start);
+        let whole = self.parts.iter().filter(|part| part.is_whole);
+        let mut whole: Vec<_> = whole.map(|part| self.inner_nodes(part)).collect();
+        whole.sort_unstable_by_key(|nodes| nodes.start);
         let count = self.space.own.len();
-        let mut nodes = Vec::with_capacity(count - strips.iter().map(|nodes| nodes.len()).sum::<usize>());
-        let starts = std::iter::once(0).chain(strips.iter().map(|nodes| nodes.end));
-        for (start, end) in starts.zip(strips.iter().map(|nodes| nodes.start).chain([count])) {
+        let mut nodes = Vec::with_capacity(count - whole.iter().map(|nodes| nodes.len()).sum::<usize>());
+        let starts = std::iter::once(0).chain(whole.iter().map(|nodes| nodes.end));
+        for (start, end) in starts.zip(whole.iter().map(|nodes| nodes.start).chain([count])) {
             nodes.extend(start as u32..end as u32);
         }
         nodes
@@ -183,7 +176,7 @@ impl<'a> Assembly<'a> {
             };
             show(k, (i, j));
         };
-        if part.is_own && !part.is_whole { outside(n, &part.strips).for_each(&mut show) } else { sides(n).for_each(&mut show) }
+        if part.is_own && !part.is_whole { all(n).for_each(&mut show) } else { sides(n).for_each(&mut show) }
     }
 
     /// The same of a macro triangle that is a single triangle, all of whose nodes are coupled: the place of each row, which of the
@@ -284,39 +277,11 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Adds the strips of a macro triangle: one stencil for each shape, and for P2 for even and odd rows.
-    fn add_strips(&self, part: &AssemblyPart, stiffness: &MacroStiffness, strips: &mut Strips) {
-        let order = self.space.numbering.level.order;
-        let mut known = BTreeMap::new();
-        let first = strips.alike.len();
-        for strip in &part.strips {
-            let kind = *known.entry((strip.shape, strip.j % order.degree())).or_insert_with(|| {
-                strips.couplings.push(Couplings::new(stiffness, order, strip));
-                strips.kernels.push(strip_kernel(&strips.couplings[strips.couplings.len() - 1]));
-                strips.couplings.len() - 1
-            });
-            let at = strips.nodes.len();
-            strips.nodes.push(self.strip_nodes(part, strip));
-            let begun = strips.alike.len() > first;
-            match strips.alike.last_mut().filter(|(_, last)| begun && *last == kind) {
-                Some((alike, _)) => alike.end = at + 1,
-                None => strips.alike.push((at..at + 1, kind)),
-            }
-        }
-        strips.triangles.push(TriangleStrips { nodes: self.inner_nodes(part), alike: first..strips.alike.len() });
-    }
-
     /// The inner nodes of a macro triangle of this rank's, counted from the first node of the rank.
     fn inner_nodes(&self, part: &AssemblyPart) -> Range<usize> {
         let n = self.space.numbering.level.intervals;
         let start = if n < 3 { 0 } else { part.numbers.node(1, 1) - self.space.own.start };
         start..start + lattice::inner_count(n)
-    }
-
-    /// Where a strip lies among the nodes of this rank.
-    fn strip_nodes(&self, part: &AssemblyPart, strip: &Strip) -> StripNodes {
-        let first = part.numbers.node(strip.i.start, strip.j) - self.space.own.start;
-        StripNodes { first, count: strip.i.len(), width: self.space.numbering.level.intervals - 1 - strip.j }
     }
 }
 
@@ -340,14 +305,9 @@ fn sides(n: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..3).flat_map(move |side| (0..n).map(move |position| lattice::side_node(n, side, position)))
 }
 
-/// Nodes of a lattice outside of its strips, row by row.
-fn outside(n: usize, strips: &[Strip]) -> impl Iterator<Item = (usize, usize)> + '_ {
-    (0..=n).flat_map(move |j| {
-        let of_row = strips.partition_point(|strip| strip.j < j)..strips.partition_point(|strip| strip.j <= j);
-        let starts = std::iter::once(0).chain(strips[of_row.clone()].iter().map(|strip| strip.i.end));
-        let ends = strips[of_row].iter().map(|strip| strip.i.start).chain([n + 1 - j]);
-        starts.zip(ends).flat_map(move |(start, end)| (start..end).map(move |i| (i, j)))
-    })
+/// All nodes of a lattice, row by row.
+fn all(n: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..=n).flat_map(move |j| (0..=n - j).map(move |i| (i, j)))
 }
 
 /// A block in the frames of its nodes, without the couplings of prescribed components.

@@ -26,16 +26,6 @@ impl<L: Lanes> BlockLanes<L> {
         Self { same: register(0), other: register(1) }
     }
 
-    /// The same of even and odd nodes.
-    pub fn of_sum(lanes: L, blocks: &[Block; 2]) -> Self {
-        Self::of_sums(lanes, |node| blocks[node % 2])
-    }
-
-    /// Blocks of even and odd nodes.
-    pub fn new(lanes: L, blocks: &[Block; 2]) -> Self {
-        Self::of(lanes, |node| blocks[node % 2])
-    }
-
     /// `sum + M x`.
     #[inline(always)]
     pub fn add(&self, lanes: L, x: L::Register, sum: L::Register) -> L::Register {
@@ -44,7 +34,7 @@ impl<L: Lanes> BlockLanes<L> {
 }
 
 /// A sum of products with blocks. The parts for the other components are brought there once, at the end: their factors are
-/// those of transposed blocks ([`BlockLanes::of_sum`]).
+/// those of transposed blocks ([`BlockLanes::of_sums`]).
 pub struct Sum<L: Lanes> {
     pub same: L::Register,
     pub other: L::Register,
@@ -72,8 +62,4 @@ impl<L: Lanes> Sum<L> {
 
 pub fn product(a: &Block, b: &Block) -> Block {
     a.map(|row| [0, 1].map(|j| row[0] * b[0][j] + row[1] * b[1][j]))
-}
-
-pub fn sum4(a: &Block, b: &Block) -> Block {
-    std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + b[i][j]))
 }

@@ -2,9 +2,9 @@
 //! worked on in lattices of their own, several side by side.
 
 use super::block_lanes::product;
+use super::couplings::Couplings;
 use super::registers::{side_by_side, triangles_kernel};
-use super::strip_kernel::SweepHalves;
-use super::strips::Couplings;
+use super::sweep_order::SweepHalves;
 use super::triangle_kernel::TriangleKernel;
 use crate::element::Block;
 use crate::mesh::lattice;

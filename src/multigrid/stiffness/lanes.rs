@@ -13,9 +13,6 @@ pub trait Lanes: Copy + 'static {
     const COUNT: usize;
 
     /// Nodes in memory, as many as fill registers.
-    fn chunks(nodes: &[[f64; 2]]) -> &[Self::Nodes];
-
-    /// The same to write to.
     fn chunks_mut(nodes: &mut [[f64; 2]]) -> &mut [Self::Nodes];
 
     /// A register from memory.
@@ -39,16 +36,6 @@ pub trait Lanes: Copy + 'static {
     /// The components of each node in the other order.
     fn turned(self, a: Self::Register) -> Self::Register;
 
-    /// The first and the second node of each two in the other order.
-    fn crossed(self, a: Self::Register) -> Self::Register;
-
-    /// The nodes `step` places before those of `a`; `before` are the nodes in front of them. `step` is one or two, and below
-    /// the count.
-    fn earlier<const STEP: usize>(self, before: Self::Register, a: Self::Register) -> Self::Register;
-
-    /// The nodes `step` places behind those of `a`; `after` are the nodes that follow them.
-    fn later<const STEP: usize>(self, a: Self::Register, after: Self::Register) -> Self::Register;
-
     /// Does work with the instructions of these registers.
     fn run<W: LaneWork>(self, work: W);
 }
@@ -67,11 +54,6 @@ impl Lanes for PlainLanes {
     type Register = [f64; 4];
     type Nodes = [[f64; 2]; 2];
     const COUNT: usize = 2;
-
-    #[inline(always)]
-    fn chunks(nodes: &[[f64; 2]]) -> &[Self::Nodes] {
-        nodes.as_chunks().0
-    }
 
     #[inline(always)]
     fn chunks_mut(nodes: &mut [[f64; 2]]) -> &mut [Self::Nodes] {
@@ -114,21 +96,6 @@ impl Lanes for PlainLanes {
     }
 
     #[inline(always)]
-    fn crossed(self, [a, b, c, d]: Self::Register) -> Self::Register {
-        [c, d, a, b]
-    }
-
-    #[inline(always)]
-    fn earlier<const STEP: usize>(self, before: Self::Register, a: Self::Register) -> Self::Register {
-        [before[2], before[3], a[0], a[1]]
-    }
-
-    #[inline(always)]
-    fn later<const STEP: usize>(self, a: Self::Register, after: Self::Register) -> Self::Register {
-        [a[2], a[3], after[0], after[1]]
-    }
-
-    #[inline(always)]
     fn run<W: LaneWork>(self, work: W) {
         work.work();
     }
@@ -167,11 +134,6 @@ mod x86 {
             type Register = $register;
             type Nodes = [[f64; 2]; $count];
             const COUNT: usize = $count;
-
-            #[inline(always)]
-            fn chunks(nodes: &[[f64; 2]]) -> &[Self::Nodes] {
-                nodes.as_chunks().0
-            }
 
             #[inline(always)]
             fn chunks_mut(nodes: &mut [[f64; 2]]) -> &mut [Self::Nodes] {
@@ -228,21 +190,6 @@ mod x86 {
         fn turned(self, a: f64x4) -> f64x4 {
             cast(self.0.avx._mm256_permute_pd::<0b0101>(cast(a)))
         }
-
-        #[inline(always)]
-        fn crossed(self, a: f64x4) -> f64x4 {
-            cast(self.0.avx._mm256_permute2f128_pd::<0x01>(cast(a), cast(a)))
-        }
-
-        #[inline(always)]
-        fn earlier<const STEP: usize>(self, before: f64x4, a: f64x4) -> f64x4 {
-            cast(self.0.avx._mm256_permute2f128_pd::<0x21>(cast(before), cast(a)))
-        }
-
-        #[inline(always)]
-        fn later<const STEP: usize>(self, a: f64x4, after: f64x4) -> f64x4 {
-            cast(self.0.avx._mm256_permute2f128_pd::<0x21>(cast(a), cast(after)))
-        }
     }
 
     impl Lanes for Avx512Lanes {
@@ -252,23 +199,6 @@ mod x86 {
         #[inline(always)]
         fn turned(self, a: f64x8) -> f64x8 {
             cast(self.0.avx512f._mm512_permute_pd::<0b0101_0101>(cast(a)))
-        }
-
-        #[inline(always)]
-        fn crossed(self, a: f64x8) -> f64x8 {
-            cast(self.0.avx512f._mm512_permutex_pd::<0b0100_1110>(cast(a)))
-        }
-
-        #[inline(always)]
-        fn earlier<const STEP: usize>(self, before: f64x8, a: f64x8) -> f64x8 {
-            let (before, a, simd) = (cast(before), cast(a), self.0.avx512f);
-            cast(if STEP == 1 { simd._mm512_alignr_epi64::<6>(a, before) } else { simd._mm512_alignr_epi64::<4>(a, before) })
-        }
-
-        #[inline(always)]
-        fn later<const STEP: usize>(self, a: f64x8, after: f64x8) -> f64x8 {
-            let (a, after, simd) = (cast(a), cast(after), self.0.avx512f);
-            cast(if STEP == 1 { simd._mm512_alignr_epi64::<2>(after, a) } else { simd._mm512_alignr_epi64::<4>(after, a) })
         }
     }
 }

@@ -1,14 +1,12 @@
-//! The stiffness of a level, its rows stored or in strips: what PETSc's solvers see of it.
+//! The stiffness of a level, its rows stored, or those of even macro triangles: what PETSc's solvers see of it.
 
 use super::ContactNeighbours;
 use super::RowPlaces;
+use super::couplings::Couplings;
 use super::even_triangles::EvenTriangles;
 use super::lattice_rows::LatticeRows;
 use super::stored_rows::{BlockColumn, BlockPlace, StoredRows};
-use super::strip_kernel::SweepHalves;
-use super::strip_set::Strips;
-use super::strips::Couplings;
-use super::sweep_order::SweepOrder;
+use super::sweep_order::{SweepHalves, SweepOrder};
 use super::sweep_rows::SweepRows;
 use crate::element::Block;
 use crate::petsc::{Halo, Operator, Result, Session, Vector};
@@ -16,19 +14,20 @@ use std::cell::RefCell;
 use std::ops::Range;
 use std::rc::Rc;
 
-/// Stored rows and strips together.
+/// Stored rows and even macro triangles together.
 pub struct LatticeOperator {
     /// The nodes of this rank.
     pub(crate) own: Range<usize>,
-    pub(crate) strips: Rc<Strips>,
+    /// Inner nodes of each macro triangle whose inner rows are stored, ascending.
+    inside: Rc<[Range<usize>]>,
     pub(crate) even: Rc<EvenTriangles>,
     pub(crate) rows: Rc<RefCell<StoredRows>>,
     /// Stored rows with other values since somebody took them, each perhaps several times.
     changed: RefCell<Vec<u32>>,
     /// Columns of other ranks, ascending.
     pub(crate) far: Vec<usize>,
-    /// Couplings of all nodes in strips and in even macro triangles.
-    in_strips: f64,
+    /// Couplings of all inner nodes of even macro triangles.
+    in_even: f64,
     /// What brings the values of the columns of other ranks.
     halo: Rc<Halo>,
     order: SweepOrder,
@@ -37,35 +36,32 @@ pub struct LatticeOperator {
 }
 
 impl LatticeOperator {
-    /// From the stored rows and the others; `far` are the columns of other ranks. **Collective**
+    /// From the stored rows and the others; `far` are the columns of other ranks, `inside` the inner nodes of each macro triangle whose
+    /// inner rows are stored. **Collective**
     pub fn new(
         rows: StoredRows,
         own: &Range<usize>,
         far: Vec<usize>,
-        strips: &Rc<Strips>,
+        inside: &Rc<[Range<usize>]>,
         even: &Rc<EvenTriangles>,
         session: &Session,
     ) -> Result<Self> {
-        let couplings = |(alike, kind): &(Range<usize>, usize)| {
-            let [even, odd] = [0, 1].map(|k| strips.couplings[*kind].of(k).len());
-            strips.nodes[alike.clone()].iter().map(|nodes| 0.5 * (nodes.count * (even + odd)) as f64).sum::<f64>()
-        };
         let in_even = even.couplings.iter().zip(&even.triangles).map(|(couplings, triangle)| {
             let all: usize = couplings.iter().flat_map(|couplings| [0, 1].map(|k| couplings.of(k).len())).sum();
             (triangle.inner.len() * all) as f64 / (2 * couplings.len()) as f64
         });
-        let in_strips = strips.alike.iter().map(couplings).chain(in_even).sum();
-        let (order, halo) = (SweepOrder::new(&rows, strips), Rc::new(Halo::new(session, own, &far)));
+        let in_even = in_even.sum();
+        let (order, halo) = (SweepOrder::new(&rows, inside), Rc::new(Halo::new(session, own, &far)));
         let rows = Rc::new(RefCell::new(rows));
         let changed = RefCell::default();
         Ok(Self {
             own: own.clone(),
-            strips: strips.clone(),
+            inside: inside.clone(),
             even: even.clone(),
             rows,
             changed,
             far,
-            in_strips,
+            in_even,
             halo,
             order,
             is_product: false,
@@ -78,12 +74,12 @@ impl LatticeOperator {
         Ok(Self { is_product: true, ..lattice })
     }
 
-    /// A copy with places for the couplings of a contact boundary; the strips are the same. **Collective**
+    /// A copy with places for the couplings of a contact boundary; even macro triangles are the same. **Collective**
     pub fn with_places(&self, contact: &ContactNeighbours, session: &Session) -> Result<Self> {
         let (rows, far) = self.rows.borrow().with_places(contact, &self.own, &self.far);
         let moved: Vec<u32> = self.far.iter().map(|node| far.binary_search(node).expect("it is among them") as u32).collect();
         let even = if far.len() == self.far.len() { self.even.clone() } else { Rc::new(self.even.moved(self.own.len(), &moved)) };
-        Self::new(rows, &self.own, far, &self.strips, &even, session)
+        Self::new(rows, &self.own, far, &self.inside, &even, session)
     }
 
     /// Shows where the couplings of a node, one of this rank's, with others lie, and gives its stored row.
@@ -148,9 +144,9 @@ impl LatticeOperator {
         &self.order
     }
 
-    /// All rows: those of strips and of even macro triangles with the `stored` ones.
+    /// All rows: those of even macro triangles with the `stored` ones.
     pub fn lattice_rows<'a>(&'a self, stored: &'a StoredRows) -> LatticeRows<'a> {
-        LatticeRows { strips: &self.strips, even: &self.even, stored, order: &self.order }
+        LatticeRows { even: &self.even, stored, order: &self.order }
     }
 
     /// The stored rows.
@@ -178,22 +174,10 @@ impl LatticeOperator {
         &self.even
     }
 
-    /// Shows the rows of all nodes in strips and in even macro triangles: couplings with nodes by their numbers, that with itself
+    /// Shows the rows of all inner nodes of even macro triangles: couplings with nodes by their numbers, that with itself
     /// first.
     pub fn each_row(&self, mut show: impl FnMut(usize, &[(usize, Block)])) {
         let mut row = Vec::new();
-        for (strips, kind) in &self.strips.alike {
-            for nodes in &self.strips.nodes[strips.clone()] {
-                let couplings = &self.strips.couplings[*kind];
-                for k in 0..nodes.count {
-                    let node = nodes.first + k;
-                    let number = |step| (self.own.start + node).wrapping_add_signed(nodes.distance(step));
-                    row.clear();
-                    row.extend(couplings.of(k).iter().map(|&(step, block)| (number(step), block)));
-                    show(node, &row);
-                }
-            }
-        }
         let near = self.own.len();
         self.even.each_row(|node, couplings| {
             let number = |at: usize| if at < near { self.own.start + at } else { self.far[at - near] };
@@ -206,7 +190,7 @@ impl LatticeOperator {
     /// `r = b - K x`. **Collective**
     pub fn residual(&self, b: &[[f64; 2]], x: &[[f64; 2]], r: &mut [[f64; 2]]) {
         let (stored, mut far) = (self.rows.borrow(), vec![[0.0; 2]; self.far.len()]);
-        self.halo.fetch(x, &mut far, || self.lattice_rows(&stored).residual_inside(true, b, x, r));
+        self.halo.fetch(x, &mut far, || self.even.residual(true, b, x, &[], r));
         self.lattice_rows(&stored).residual_in_others(b, x, &far, r);
     }
 
@@ -221,7 +205,7 @@ impl LatticeOperator {
     /// `y = K x`. **Collective**
     pub fn multiply(&self, x: &[[f64; 2]], y: &mut [[f64; 2]]) {
         let (stored, mut far) = (self.rows.borrow(), vec![[0.0; 2]; self.far.len()]);
-        self.halo.fetch(x, &mut far, || self.lattice_rows(&stored).multiply_inside(x, y));
+        self.halo.fetch(x, &mut far, || self.even.multiply(true, x, &[], y));
         self.lattice_rows(&stored).multiply_in_others(x, &far, y);
     }
 }
@@ -234,11 +218,11 @@ impl Operator for Rc<LatticeOperator> {
 
     fn norm_infinity(&self) -> Result<f64> {
         let stored = self.rows.borrow().norm_infinity();
-        let all = self.strips.couplings.iter().chain(self.even.couplings.iter().flatten());
+        let all = self.even.couplings.iter().flatten();
         Ok(all.map(Couplings::norm_infinity).fold(stored, f64::max))
     }
 
     fn work(&self) -> f64 {
-        8.0 * (self.rows.borrow().block_count() as f64 + self.in_strips)
+        8.0 * (self.rows.borrow().block_count() as f64 + self.in_even)
     }
 }

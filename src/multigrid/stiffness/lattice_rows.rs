@@ -1,39 +1,20 @@
-//! Strips and stored rows of a rank together.
+//! Even macro triangles and stored rows of a rank together.
 
 use super::even_triangles::EvenTriangles;
 use super::registers::on_rows;
 use super::row_kernel::{OnRows, RowTask};
 use super::stored_rows::StoredRows;
-use super::strip_kernel::SweepHalves;
-use super::strip_set::Strips;
-use super::sweep_order::SweepOrder;
+use super::sweep_order::{SweepHalves, SweepOrder};
 use std::ops::Range;
 
 /// Rows to work on.
 pub struct LatticeRows<'a> {
-    pub strips: &'a Strips,
     pub even: &'a EvenTriangles,
     pub stored: &'a StoredRows,
     pub order: &'a SweepOrder,
 }
 
 impl LatticeRows<'_> {
-    /// `y = K x` at nodes in strips and inside of even macro triangles, as far as no node of another rank is needed.
-    pub fn multiply_inside(&self, x: &[[f64; 2]], y: &mut [[f64; 2]]) {
-        let Strips { alike, kernels, nodes, .. } = self.strips;
-        alike.iter().for_each(|(strips, kind)| kernels[*kind].multiply(&nodes[strips.clone()], x, y));
-        self.even.multiply(true, x, &[], y);
-    }
-
-    /// `r = b - K x` at these nodes, those of even macro triangles being left out if not asked for.
-    pub fn residual_inside(&self, with_even: bool, b: &[[f64; 2]], x: &[[f64; 2]], r: &mut [[f64; 2]]) {
-        let Strips { alike, kernels, nodes, .. } = self.strips;
-        alike.iter().for_each(|(strips, kind)| kernels[*kind].residual(&nodes[strips.clone()], b, x, r));
-        if with_even {
-            self.even.residual(true, b, x, &[], r);
-        }
-    }
-
     /// `y = K x` at all other nodes; `far` are the values of other ranks, none stands for zeros.
     pub fn multiply_in_others(&self, x: &[[f64; 2]], far: &[[f64; 2]], y: &mut [[f64; 2]]) {
         self.even.multiply(false, x, far, y);
@@ -55,15 +36,10 @@ impl LatticeRows<'_> {
     pub fn end_to_relax(&self, sweep: SweepHalves, b: &[[f64; 2]], x: &mut [[f64; 2]], far: &[[f64; 2]]) {
         let (stored, SweepOrder { near_sides, far_sides, inside }) = (self.stored, self.order);
         far_sides.iter().for_each(|range| stored.forward(range.clone(), b, x, far));
-        for (triangle, rows) in self.strips.triangles.iter().zip(inside) {
-            let parts = &self.strips.alike[triangle.alike.clone()];
-            let (kernels, nodes) = (&self.strips.kernels, &self.strips.nodes);
-            // Strips come first: what they bring into the cache the stored rows find there.
-            parts.iter().for_each(|(strips, kind)| kernels[*kind].forward(&nodes[strips.clone()], b, x));
+        for rows in inside {
             stored.forward(rows.clone(), b, x, far);
             if sweep == SweepHalves::Both {
                 stored.backward(rows.clone(), b, x, far);
-                parts.iter().rev().for_each(|(strips, kind)| kernels[*kind].backward(&nodes[strips.clone()], b, x));
             }
         }
         self.even.relax(sweep, b, x, far);
@@ -147,12 +123,12 @@ mod tests {
         }
     }
 
-    /// Counts strips, even macro triangles, and sides that need nodes of other ranks.
+    /// Counts macro triangles whose inner rows are stored, even ones, and sides that need nodes of other ranks.
     fn check(scene: &Scene, space: &Space, rank: usize) -> [usize; 3] {
         let assembly = Assembly::new(scene, space, true, rank);
-        let Assembled { rows, strips, even, .. } = assembly.assemble(&Default::default(), |_, _| ()).expect("good triangles");
-        let (order, nodes) = (SweepOrder::new(&rows, &strips), space.own.len());
-        let lattice = LatticeRows { strips: &strips, even: &even, stored: &rows, order: &order };
+        let Assembled { rows, inside, even, .. } = assembly.assemble(&Default::default(), |_, _| ()).expect("good triangles");
+        let (order, nodes) = (SweepOrder::new(&rows, &inside), space.own.len());
+        let lattice = LatticeRows { even: &even, stored: &rows, order: &order };
         let (b, mut zero, mut x) = (vector(nodes, 3), vec![[0.0; 2]; nodes], vector(nodes, 8));
         lattice.begin_to_relax(&b, &mut zero);
         lattice.end_to_relax(SweepHalves::Forward, &b, &mut zero, &[]);
@@ -162,6 +138,6 @@ mod tests {
             // The same products are added in another order.
             assert!((x - zero).abs() <= 1e-14 * largest, "{x} {zero}");
         }
-        [strips.nodes.len(), even.triangles.len(), order.far_sides.len()]
+        [inside.len(), even.triangles.len(), order.far_sides.len()]
     }
 }

@@ -1,11 +1,10 @@
 //! Which registers suit the processor: it is asked at run time.
 
+use super::couplings::Couplings;
 #[cfg(target_arch = "x86_64")]
 use super::lanes::{Avx2Lanes, Avx512Lanes};
 use super::lanes::{LaneWork, Lanes, PlainLanes};
 use super::row_kernel::RowWork;
-use super::strip_kernel::{StripKernel, kernel};
-use super::strips::Couplings;
 use super::triangle_kernel::{TriangleKernel, triangle_kernel};
 
 /// Work on stored rows with some registers.
@@ -22,20 +21,6 @@ impl<L: Lanes<Nodes = [[f64; 2]; 2]>, W: RowWork> LaneWork for RowsWith<L, W> {
     fn work(self) {
         self.1.work(self.0);
     }
-}
-
-/// The kernel of some couplings that suits the processor best.
-pub fn strip_kernel(couplings: &Couplings) -> Box<dyn StripKernel> {
-    #[cfg(target_arch = "x86_64")]
-    {
-        if let Some(simd) = pulp::x86::V4::try_new() {
-            return kernel(Avx512Lanes(simd), couplings);
-        }
-        if let Some(simd) = pulp::x86::V3::try_new() {
-            return kernel(Avx2Lanes(simd), couplings);
-        }
-    }
-    kernel(PlainLanes, couplings)
 }
 
 /// How many even macro triangles of so many that are left suit the processor best, side by side.

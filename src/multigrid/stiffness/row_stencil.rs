@@ -4,10 +4,16 @@
 //! relaxed last comes into the sum last, since it is ready last.
 
 use super::block_lanes::{BlockLanes, Sum, product};
+use super::couplings::{Couplings, Step, inverse};
 use super::lanes::Lanes;
-use super::recurrence::Way;
-use super::strips::{Couplings, Step, inverse};
 use crate::mesh::lattice;
+
+/// The way of a sweep through a row.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    Forward,
+    Backward,
+}
 
 /// Work on one row of lattices with `n` intervals: `(n, j)` says which.
 pub trait RowStencil<L: Lanes> {

@@ -1,6 +1,6 @@
 //! The rows of a stiffness that are stored, as blocks of two by two.
 
-use super::strips::inverse;
+use super::couplings::inverse;
 use crate::element::Block;
 use crate::petsc::Index;
 use std::collections::HashMap;

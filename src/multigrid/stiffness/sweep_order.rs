@@ -1,8 +1,18 @@
 //! In which order a sweep goes through the nodes of a rank.
 
 use super::stored_rows::StoredRows;
-use super::strip_set::Strips;
 use std::ops::Range;
+
+/// Which halves of a symmetric Gauss-Seidel sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SweepHalves {
+    /// The forward half alone.
+    Forward,
+    /// The forward half from zero: values that are still to come are not read.
+    ForwardFromZero,
+    /// Both halves, the forward one first.
+    Both,
+}
 
 /// Which stored rows belong to nodes on sides of macro triangles, and which lie inside of one.
 ///
@@ -16,15 +26,15 @@ pub struct SweepOrder {
     pub near_sides: Vec<Range<usize>>,
     /// The others.
     pub far_sides: Vec<Range<usize>>,
-    /// Stored rows inside of each macro triangle; they come after its strips.
+    /// Stored rows inside of each macro triangle.
     pub inside: Vec<Range<usize>>,
 }
 
 impl SweepOrder {
-    /// Of the stored rows of some nodes.
-    pub fn new(rows: &StoredRows, strips: &Strips) -> Self {
+    /// Of the stored rows of some nodes; `inside` are the inner nodes of each macro triangle whose inner rows are stored, ascending.
+    pub fn new(rows: &StoredRows, inside: &[Range<usize>]) -> Self {
         let at = |node: usize| rows.nodes().partition_point(|&stored| (stored as usize) < node);
-        let inside: Vec<Range<usize>> = strips.triangles.iter().map(|t| at(t.nodes.start)..at(t.nodes.end)).collect();
+        let inside: Vec<Range<usize>> = inside.iter().map(|nodes| at(nodes.start)..at(nodes.end)).collect();
         let starts = std::iter::once(0).chain(inside.iter().map(|range| range.end));
         let ends = inside.iter().map(|range| range.start).chain([rows.nodes().len()]);
         let mut sides = [Vec::new(), Vec::new()];

@@ -1,4 +1,4 @@
-//! All rows of a level as a sweep reads them: where none of them lies in strips or in even macro triangles.
+//! All rows of a level as a sweep reads them: where none of them lies inside of an even macro triangle.
 //!
 //! A sweep through many rows waits for memory, so their couplings are kept once more, in single precision, and each row is read
 //! in two halves: couplings with nodes that the sweep comes to earlier, and with those later. What a symmetric sweep's forward half
@@ -12,11 +12,11 @@
 //! springs that are very much stiffer in one direction than the body would change it by more: then rows are read in double precision,
 //! too, from where they are stored, if none shares its blocks.
 
+use super::couplings::inverse;
 use super::lanes::Lanes;
 use super::registers::on_rows;
 use super::row_kernel::RowWork;
 use super::stored_rows::{Part, StoredRows};
-use super::strips::inverse;
 use crate::element::Block;
 
 /// Smallest part of a diagonal block's trace that its smaller eigenvalue may be. Rounding takes 3e-8 of the trace, three hundredths of

@@ -3,11 +3,10 @@
 //! Nodes of different macro triangles do not wait for each other in a sweep, so registers are full on the smallest lattice as on
 //! the largest one. Each macro triangle may have couplings of its own.
 
+use super::couplings::Couplings;
 use super::lanes::{LaneWork, Lanes};
-use super::recurrence::Way;
-use super::row_stencil::{Alike, Alternate, RowStencil};
-use super::strip_kernel::SweepHalves;
-use super::strips::Couplings;
+use super::row_stencil::{Alike, Alternate, RowStencil, Way};
+use super::sweep_order::SweepHalves;
 use crate::mesh::lattice;
 
 /// Work on all inner nodes of a few macro triangles with `n` intervals; `first` are their first inner nodes in the vectors of

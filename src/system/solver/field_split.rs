@@ -84,7 +84,7 @@ fn levels(
     let all = auxiliary.iter().chain(system.stiffness.iter().map(Stiffness::lattice));
     let cycle = Cycle::new(all, interpolations, preconditioning.conjugate_steps(), session)?;
     let solver = preconditioner.field_split_solvers()?.swap_remove(0);
-    solver.preconditioner().set_action("multigrid F-cycle on strips and stored rows", cycle.action())?;
+    solver.preconditioner().set_action("multigrid F-cycle on even macro triangles and stored rows", cycle.action())?;
     solver.set_up()?;
     Ok((auxiliary, cycle))
 }

@@ -6,8 +6,8 @@ use crate::discretisation::samples::vector;
 use crate::element::{Order, Plane, PlaneLaw};
 use crate::mesh::Level;
 use crate::mesh::samples::two_blocks;
+use crate::multigrid::stiffness::couplings::inverse;
 use crate::multigrid::stiffness::lanes::PlainLanes;
-use crate::multigrid::stiffness::strips::inverse;
 
 /// One macro triangle: its couplings, its inner nodes in the vectors, the values of its lattice before the work.
 struct Sample {
