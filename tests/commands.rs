@@ -268,6 +268,18 @@ fn the_displacement_block_takes_another_preconditioner() {
     }
 }
 
+/// Where there are no multipliers, field `u` is the whole system.
+#[test]
+fn a_body_without_contact_takes_another_preconditioner() {
+    let run = Run::case("hot_cylinder");
+    let energy = run.clone().converged().number("/energy/total");
+    for (ranks, options) in [(1, "-fieldsplit_u_pc_type gamg"), (2, "-fieldsplit_u_pc_type gamg -ksp_type gmres")] {
+        let ended = run.clone().ranks(ranks).petsc(options).petsc("-ksp_view").converged();
+        assert!(ended.output.contains("type: gamg"), "{}", ended.output);
+        assert!((ended.number("/energy/total") / energy - 1.0).abs() < 1e-6, "{options}");
+    }
+}
+
 #[test]
 fn nothing_leaks() {
     for case in ["bars_inclined", "bars_parabola"] {

@@ -35,7 +35,12 @@ pub fn field_split(
     krylov.set_up()?;
     let levels = match preconditioning {
         Preconditioning::Factor => None,
-        _ if takes_another_preconditioner(session) => None,
+        _ if takes_another_preconditioner(session) => {
+            // Without multipliers PETSc takes the whole nest for its first block: no preconditioner makes anything of a nest.
+            let stiffness = system.finest_stiffness().operator();
+            preconditioner.field_split_solvers()?[0].set_operators(stiffness, stiffness)?;
+            None
+        }
         _ => Some(levels(&preconditioner, system, interpolations, preconditioning, session)?),
     };
     let cycle = levels.as_ref().map(|(_, cycle)| cycle);

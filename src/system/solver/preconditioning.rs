@@ -9,8 +9,6 @@ pub enum Preconditioning {
     Sweep,
     /// Multigrid with two steps of CG, preconditioned by the sweep.
     TwoSteps,
-    /// Multigrid with four.
-    FourSteps,
     /// A Cholesky factor.
     Factor,
 }
@@ -47,7 +45,6 @@ impl Preconditioning {
         match self {
             Self::Sweep | Self::Factor => 0,
             Self::TwoSteps => 2,
-            Self::FourSteps => 4,
         }
     }
 
@@ -56,7 +53,6 @@ impl Preconditioning {
         match self {
             Self::Sweep => cycle.to_string(),
             Self::TwoSteps => format!("{cycle}, smoothed by 2 CG steps"),
-            Self::FourSteps => format!("{cycle}, smoothed by 4 CG steps"),
             Self::Factor => "Cholesky factor".to_string(),
         }
     }
