@@ -34,6 +34,32 @@ pub struct NodeInterpolation {
     far: usize,
 }
 
+/// Nodes in the middle of two parents, and the other couplings, as [`NodeInterpolation`] has them.
+type Lists = (Vec<[u32; 3]>, Vec<(u32, u32, f64)>, Vec<(u32, u32, Block)>);
+
+/// The lists of the nodes that have these parents; `far` are the coarse nodes of other ranks, ascending.
+fn lists(rows: &NodeParents, fine: &Space, coarse: &Space, far: &[usize]) -> Lists {
+    let place = |node: usize| match coarse.own.contains(&node) {
+        true => (node - coarse.own.start) as u32,
+        false => (coarse.own.len() + far.binary_search(&node).expect("a known node")) as u32,
+    };
+    let (mut even, mut weighted, mut others) = (Vec::new(), Vec::new(), Vec::new());
+    for (node, pair) in rows.iter() {
+        let at = (node - fine.own.start) as u32;
+        let weights = rows.weights(node);
+        let plain = fine.constraints.get(node).is_none() && pair.iter().all(|&p| coarse.constraints.get(p).is_none());
+        if plain && weights == [0.5; 2] {
+            even.push([at, place(pair[0]), place(pair[1])]);
+            continue;
+        }
+        for (parent, weight) in pair.into_iter().zip(weights) {
+            let coupling = Parentage { node, parent, weight, turned: turned(fine, coarse, node, parent) };
+            push(coupling, at, place(parent), &mut weighted, &mut others);
+        }
+    }
+    (even, weighted, others)
+}
+
 /// A macro triangle whose inner nodes are worked on as a whole.
 struct WholeTriangle {
     /// Its fine inner nodes, counted from the first that is here.
@@ -82,39 +108,21 @@ impl NodeInterpolation {
         let mut far: Vec<usize> = parents.filter(|node| !coarse.own.contains(node)).collect();
         far.sort_unstable();
         far.dedup();
-        let place = |node: usize| match coarse.own.contains(&node) {
-            true => (node - coarse.own.start) as u32,
-            false => (coarse.own.len() + far.binary_search(&node).expect("a known node")) as u32,
-        };
-        let (mut even, mut weighted, mut others) = (Vec::new(), Vec::new(), Vec::new());
-        for (node, pair) in rows.iter() {
-            let at = (node - fine.own.start) as u32;
-            let weights = rows.weights(node);
-            let plain = fine.constraints.get(node).is_none() && pair.iter().all(|&p| coarse.constraints.get(p).is_none());
-            if plain && weights == [0.5; 2] {
-                even.push([at, place(pair[0]), place(pair[1])]);
-                continue;
-            }
-            for (parent, weight) in pair.into_iter().zip(weights) {
-                let coupling = Parentage { node, parent, weight, turned: turned(fine, coarse, node, parent) };
-                push(coupling, at, place(parent), &mut weighted, &mut others);
-            }
-        }
+        let (even, weighted, turned) = lists(&rows, fine, coarse, &far);
         // All ranks take the same way here, whatever they own: a halo is made by all of them together.
         let halo = (session.size() > 1).then(|| Halo::new(session, &coarse.own, &far));
-        let pair = |triangle: &u32| {
+        let whole = whole.iter().map(|triangle| {
             let first = fine.numbering.triangle(&scene.mesh, *triangle as usize).node(1, 1) - fine.own.start;
             let coarse = TriangleNodes::new(&numbers(triangle), coarse, &coarse.own, &far);
             WholeTriangle { fine: first..first + lattice::inner_count(n), coarse }
-        };
-        let whole = whole.iter().map(pair).collect();
+        });
         Self {
-            whole,
+            whole: whole.collect(),
             n,
             halved,
             even,
             weighted,
-            turned: others,
+            turned,
             unparented: Vec::new(),
             coarse: coarse.own.len(),
             halo,
