@@ -17,12 +17,14 @@
 
 mod balance;
 mod cell_energies;
+mod contact_forces;
 mod corners;
 mod deformation;
 mod error_norm;
 mod evaluation;
 mod heat;
 mod motion_error;
+mod node_sums;
 mod overlaps;
 mod penetrations;
 mod probe;
@@ -33,8 +35,9 @@ mod zone_ends;
 mod zone_errors;
 mod zone_width;
 
-pub use balance::{Balance, ContactForce};
+pub use balance::Balance;
 pub use cell_energies::cell_energies;
+pub use contact_forces::ContactForce;
 pub use corners::Corners;
 pub use deformation::Deformation;
 pub use evaluation::Evaluation;

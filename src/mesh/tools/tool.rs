@@ -182,6 +182,7 @@ impl MacroMesh {
         behind: f64,
     ) -> Result<(), String> {
         let first = self.vertices.len() as u32;
+        let ends = |k: usize| [k, (k + 1) % places.len()].map(|at| first + 2 * at as u32);
         for place in places {
             self.vertices.push(place.x);
             self.vertices.push(place.x + behind * place.depth * self.away(place));
@@ -198,21 +199,13 @@ impl MacroMesh {
         self.bodies.push(name.into());
         self.parts.push(Surface { name: name.into(), body });
         self.pieces.push(BodyPiece { body: body as usize, first: start });
-        let ends = |k: usize| [k, (k + 1) % places.len()].map(|at| first + 2 * at as u32);
         for (k, place) in places.iter().enumerate().take(sides.len()) {
-            let [a, b] = ends(k);
-            let [c, d] = [b + 1, a + 1];
-            for corners in [[a, b, c], [a, c, d]] {
-                let corners = if behind > 0.0 { [corners[0], corners[2], corners[1]] } else { corners };
-                let [x, y, z] = corners.map(|corner| self.vertices[corner as usize]);
-                if cross(y - x, z - x) <= 0.0 {
-                    return Err(format!(
-                        "its surface turns too sharply near ({:.6}, {:.6}); make it smoother, or of several tools",
-                        place.x.x, place.x.y
-                    ));
-                }
-                self.triangles.push(MacroTriangle { vertices: corners, edges: [0; 3], forward: [true; 3], body, part, piece });
-            }
+            let new = |vertices| MacroTriangle { vertices, edges: [0; 3], forward: [true; 3], body, part, piece };
+            let corners = self.layer_corners(ends(k), behind > 0.0).ok_or_else(|| {
+                let [x, y] = [place.x.x, place.x.y];
+                format!("its surface turns too sharply near ({x:.6}, {y:.6}); make it smoother, or of several tools")
+            })?;
+            self.triangles.extend(corners.map(new));
         }
         let shapes: Vec<_> = self.edges.iter_mut().map(|edge| edge.shape.take()).collect();
         let (edges, _) = self.connect();
@@ -233,6 +226,18 @@ impl MacroMesh {
             self.boundaries.push(Boundary { name: format!("{name}.{}", number + 1), edges: own, is_union: false });
         }
         Ok(())
+    }
+
+    /// Corners of the two triangles behind a side from vertex `a` to vertex `b`, the vertex behind each being the next one; nothing
+    /// where they are turned inside out.
+    fn layer_corners(&self, [a, b]: [u32; 2], is_behind: bool) -> Option<[[u32; 3]; 2]> {
+        let [c, d] = [b + 1, a + 1];
+        let corners = [[a, b, c], [a, c, d]].map(|[x, y, z]| if is_behind { [x, z, y] } else { [x, y, z] });
+        let is_good = |corners: &[u32; 3]| {
+            let [x, y, z] = corners.map(|corner| self.vertices[corner as usize]);
+            cross(y - x, z - x) > 0.0
+        };
+        corners.iter().all(is_good).then_some(corners)
     }
 }
 
