@@ -17,7 +17,7 @@ mod spelling;
 
 use super::Point;
 use super::place::{Coordinates, Quote};
-use arithmetic::{Arithmetic, PointValues};
+use arithmetic::{Arithmetic, Function, Operation};
 use dual::Dual;
 
 /// A formula of named variables.
@@ -41,23 +41,8 @@ const DEPTH: usize = 24;
 enum Instruction {
     Number(f64),
     Variable(usize),
-    Negate,
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    Power,
     Apply(Function),
-}
-
-/// The functions that a formula may call.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Function {
-    Sqrt,
-    Sin,
-    Cos,
-    Exp,
-    Log,
+    Combine(Operation),
 }
 
 impl Formula {
@@ -87,7 +72,7 @@ impl Formula {
 
     /// The formula with a number added to it.
     pub fn plus(&self, value: f64) -> Self {
-        let added = [Instruction::Number(value), Instruction::Add];
+        let added = [Instruction::Number(value), Instruction::Combine(Operation::Add)];
         Self { text: format!("{} + {value:?}", self.text), program: self.program.iter().copied().chain(added).collect() }
     }
 
@@ -96,7 +81,7 @@ impl Formula {
         if let Some(value) = self.as_constant() {
             return Self::constant(factor * value);
         }
-        let multiplied = [Instruction::Number(factor), Instruction::Multiply];
+        let multiplied = [Instruction::Number(factor), Instruction::Combine(Operation::Multiply)];
         Self { text: format!("({}) * {factor:?}", self.text), program: self.program.iter().copied().chain(multiplied).collect() }
     }
 
@@ -113,7 +98,7 @@ impl Formula {
     /// # Panics
     /// If `at` is shorter than the variables that the formula uses.
     pub fn value(&self, at: &[f64]) -> f64 {
-        self.evaluate(|index| PointValues([at[index]])).0[0]
+        self.evaluate(|index| [at[index]])[0]
     }
 
     /// Values at some points, as a formula of x, y: the same as one after the other, in less time.
@@ -121,7 +106,7 @@ impl Formula {
     /// # Panics
     /// If the formula uses more variables than these two.
     pub fn values<const N: usize>(&self, at: &[Point; N]) -> [f64; N] {
-        self.evaluate(|index| PointValues(at.map(|x| x[index]))).0
+        self.evaluate(|index| at.map(|x| x[index]))
     }
 
     /// Exact partial derivative by variable number `variable`.
@@ -158,11 +143,7 @@ impl Formula {
         let mut top = 0;
         for instruction in &self.program {
             let taken = instruction.operands();
-            let operands = &stack[top - taken..top];
-            let result = match *instruction {
-                Instruction::Variable(index) => variable(index),
-                ref instruction => instruction.compute(operands),
-            };
+            let result = instruction.compute(&stack[top - taken..top], &variable);
             top -= taken;
             stack[top] = result;
             top += 1;
@@ -176,29 +157,18 @@ impl Instruction {
     fn operands(&self) -> usize {
         match self {
             Instruction::Number(_) | Instruction::Variable(_) => 0,
-            Instruction::Negate | Instruction::Apply(_) => 1,
-            Instruction::Add | Instruction::Subtract | Instruction::Multiply | Instruction::Divide | Instruction::Power => 2,
+            Instruction::Apply(_) => 1,
+            Instruction::Combine(_) => 2,
         }
     }
 
-    /// Result of an instruction that needs no variable.
-    fn compute<V: Arithmetic>(&self, operands: &[V]) -> V {
-        match (self, operands) {
-            (Instruction::Number(value), []) => V::constant(*value),
-            (Instruction::Negate, [a]) => -*a,
-            (Instruction::Apply(function), [a]) => match function {
-                Function::Sqrt => a.sqrt(),
-                Function::Sin => a.sin(),
-                Function::Cos => a.cos(),
-                Function::Exp => a.exp(),
-                Function::Log => a.log(),
-            },
-            (Instruction::Add, [a, b]) => *a + *b,
-            (Instruction::Subtract, [a, b]) => *a - *b,
-            (Instruction::Multiply, [a, b]) => *a * *b,
-            (Instruction::Divide, [a, b]) => *a / *b,
-            (Instruction::Power, [a, b]) => a.power(*b),
-            _ => unreachable!("the parser pushes the operands of every instruction, and variables are pushed by `evaluate`"),
+    /// Its result on as many operands as it takes.
+    fn compute<V: Arithmetic>(&self, operands: &[V], variable: impl Fn(usize) -> V) -> V {
+        match *self {
+            Instruction::Number(value) => V::constant(value),
+            Instruction::Variable(index) => variable(index),
+            Instruction::Apply(function) => operands[0].apply(function),
+            Instruction::Combine(operation) => operands[0].combine(operation, operands[1]),
         }
     }
 }

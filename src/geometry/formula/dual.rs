@@ -1,7 +1,6 @@
 //! Dual numbers: a value and its slope along one variable.
 
-use super::arithmetic::{Arithmetic, power};
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use super::arithmetic::{Arithmetic, Function, Operation};
 
 /// `value + slope ε` with `ε² = 0`.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +17,14 @@ impl Dual {
         let slope = if self.slope == 0.0 { 0.0 } else { outer_slope() * self.slope };
         Self { value, slope }
     }
+
+    /// The power of this `value`.
+    fn power(self, exponent: Self, value: f64) -> Self {
+        let (base, n) = (self.value, exponent.value);
+        let through_base = self.chain(value, || if n == 0.0 { 0.0 } else { n * base.powf(n - 1.0) });
+        let through_exponent = exponent.chain(value, || if base == 0.0 && n > 0.0 { 0.0 } else { value * base.ln() });
+        Self { value, slope: through_base.slope + through_exponent.slope }
+    }
 }
 
 impl Arithmetic for Dual {
@@ -25,69 +32,27 @@ impl Arithmetic for Dual {
         Self { value, slope: 0.0 }
     }
 
-    fn sqrt(self) -> Self {
-        let root = self.value.sqrt();
-        self.chain(root, || 0.5 / root)
+    fn apply(self, function: Function) -> Self {
+        let [value] = [self.value].apply(function);
+        match function {
+            Function::Negate => Self { value, slope: -self.slope },
+            Function::Sqrt => self.chain(value, || 0.5 / value),
+            Function::Sin => self.chain(value, || self.value.cos()),
+            Function::Cos => self.chain(value, || -self.value.sin()),
+            Function::Exp => self.chain(value, || value),
+            Function::Log => self.chain(value, || 1.0 / self.value),
+        }
     }
 
-    fn sin(self) -> Self {
-        self.chain(self.value.sin(), || self.value.cos())
-    }
-
-    fn cos(self) -> Self {
-        self.chain(self.value.cos(), || -self.value.sin())
-    }
-
-    fn exp(self) -> Self {
-        let value = self.value.exp();
-        self.chain(value, || value)
-    }
-
-    fn log(self) -> Self {
-        self.chain(self.value.ln(), || 1.0 / self.value)
-    }
-
-    fn power(self, exponent: Self) -> Self {
-        let (base, n) = (self.value, exponent.value);
-        let value = power(base, n);
-        let through_base = self.chain(value, || if n == 0.0 { 0.0 } else { n * base.powf(n - 1.0) });
-        let through_exponent = exponent.chain(value, || if base == 0.0 && n > 0.0 { 0.0 } else { value * base.ln() });
-        Self { value, slope: through_base.slope + through_exponent.slope }
-    }
-}
-
-impl Neg for Dual {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self { value: -self.value, slope: -self.slope }
-    }
-}
-
-impl Add for Dual {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self { value: self.value + other.value, slope: self.slope + other.slope }
-    }
-}
-
-impl Sub for Dual {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Self { value: self.value - other.value, slope: self.slope - other.slope }
-    }
-}
-
-impl Mul for Dual {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self { value: self.value * other.value, slope: self.slope * other.value + self.value * other.slope }
-    }
-}
-
-impl Div for Dual {
-    type Output = Self;
-    fn div(self, other: Self) -> Self {
-        let value = self.value / other.value;
-        Self { value, slope: (self.slope - value * other.slope) / other.value }
+    fn combine(self, operation: Operation, other: Self) -> Self {
+        let [value] = [self.value].combine(operation, [other.value]);
+        let slope = match operation {
+            Operation::Add => self.slope + other.slope,
+            Operation::Subtract => self.slope - other.slope,
+            Operation::Multiply => self.slope * other.value + self.value * other.slope,
+            Operation::Divide => (self.slope - value * other.slope) / other.value,
+            Operation::Power => return self.power(other, value),
+        };
+        Self { value, slope }
     }
 }

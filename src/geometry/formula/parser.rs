@@ -1,7 +1,7 @@
 //! Formula text to postfix program, by recursive descent.
 
-use super::arithmetic::PointValues;
-use super::{DEPTH, FormulaError, Function, Instruction};
+use super::arithmetic::{Function, Operation};
+use super::{DEPTH, FormulaError, Instruction};
 use crate::geometry::place::Quote;
 
 /// What a formula may call.
@@ -45,7 +45,7 @@ impl Parser<'_> {
         while let Some(sign @ ('+' | '-')) = self.peek() {
             self.next += 1;
             self.product()?;
-            self.push(if sign == '+' { Instruction::Add } else { Instruction::Subtract })?;
+            self.push(Instruction::Combine(if sign == '+' { Operation::Add } else { Operation::Subtract }))?;
         }
         Ok(())
     }
@@ -56,7 +56,7 @@ impl Parser<'_> {
         while let Some(sign @ ('*' | '/')) = self.peek() {
             self.next += 1;
             self.signed()?;
-            self.push(if sign == '*' { Instruction::Multiply } else { Instruction::Divide })?;
+            self.push(Instruction::Combine(if sign == '*' { Operation::Multiply } else { Operation::Divide }))?;
         }
         Ok(())
     }
@@ -71,7 +71,7 @@ impl Parser<'_> {
             Some('-') => {
                 self.next += 1;
                 self.signed()?;
-                self.push(Instruction::Negate)?;
+                self.push(Instruction::Apply(Function::Negate))?;
             }
             Some('+') => {
                 self.next += 1;
@@ -89,7 +89,7 @@ impl Parser<'_> {
         if self.peek() == Some('^') {
             self.next += 1;
             self.signed()?;
-            self.push(Instruction::Power)?;
+            self.push(Instruction::Combine(Operation::Power))?;
         }
         Ok(())
     }
@@ -161,12 +161,13 @@ impl Parser<'_> {
             return Err(self.error_here("nested too deeply; simplify the formula"));
         }
         let first = self.program.len() - taken;
-        let number = |instruction: &Instruction| {
-            if let Instruction::Number(value) = instruction { Some(PointValues([*value])) } else { None }
+        let number = |instruction: &Instruction| match instruction {
+            Instruction::Number(value) => Some([*value]),
+            _ => None,
         };
         let operands: Vec<_> = self.program[first..].iter().filter_map(number).collect();
         if taken > 0 && operands.len() == taken {
-            let PointValues([value]) = instruction.compute(&operands);
+            let [value] = instruction.compute(&operands, |_| unreachable!("an instruction on numbers has no variable"));
             self.program.truncate(first);
             self.program.push(Instruction::Number(value));
         } else {
