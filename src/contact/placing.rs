@@ -64,7 +64,7 @@ pub fn place(
     displacement: Displacement,
 ) -> Result<Placed, PlacingError> {
     let error = |words: String| PlacingError { pair: pair.name.clone(), words };
-    let sides = [0, 1].map(|k| mesh.boundary(&pair.between[k]).map(|b| b.edges.as_slice()).unwrap_or(&[]));
+    let sides = [0, 1].map(|k| mesh.edges_of(&pair.between[k]));
     let mut fitted = None;
     let (curve, limits) = match pair.curve {
         CurveChoice::Fit | CurveChoice::Own(_) => {
@@ -166,7 +166,7 @@ fn check_cover(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2], boundary: &Con
     let least = 1e-6 * (last - first);
     for (side, edges) in sides.into_iter().enumerate() {
         let parts_of = |edge: &u32| {
-            let ends = mesh.edges[*edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+            let ends = mesh.edge_ends(*edge);
             boundary.parts(ends).collect::<Vec<_>>()
         };
         let mut parts: Vec<[f64; 2]> = edges.iter().flat_map(parts_of).collect();
@@ -335,7 +335,7 @@ fn common_extents([first, second]: [[f64; 2]; 2], curve: &Curve) -> Vec<[f64; 2]
 /// All element edges of a pair's two boundaries, at the level that is numbered, where contact is modelled.
 pub fn all_edges(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, displacement: Displacement) -> [Vec<BoundaryEdge>; 2] {
     [0, 1].map(|k| {
-        let edges = mesh.boundary(&pair.between[k]).map(|b| b.edges.as_slice()).unwrap_or(&[]);
+        let edges = mesh.edges_of(&pair.between[k]);
         let all = edges.iter().flat_map(|&edge| BoundaryEdge::all_of(mesh, edge, numbering));
         match pair.configuration {
             Configuration::Reference => all.collect(),

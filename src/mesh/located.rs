@@ -89,14 +89,14 @@ impl MacroMesh {
 
     /// Whether a point may lie in a macro triangle, or on its sides.
     fn is_near(&self, triangle: usize, x: Point) -> bool {
-        let corners = self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize]);
+        let corners = self.corners(triangle);
         let size = self.triangles[triangle].edges.map(|edge| self.edge_length(edge)).into_iter().fold(0.0, f64::max);
         corners.iter().any(|corner| (x - corner).norm() <= 1.5 * size)
     }
 
     /// Fraction of an edge at which a point lies on it; nothing if it does not.
     fn fraction_of(&self, edge: u32, x: Point) -> Option<f64> {
-        let [a, b] = self.edges[edge as usize].vertices.map(|vertex| self.vertices[vertex as usize]);
+        let [a, b] = self.edge_ends(edge);
         let t = match &self.edges[edge as usize].shape {
             None => (x - a).dot(&(b - a)) / (b - a).norm_squared(),
             Some(shape) => {

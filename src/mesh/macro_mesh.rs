@@ -95,7 +95,7 @@ pub struct BodyPiece {
 }
 
 /// The mesh of the file. Every rank holds the whole of it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct MacroMesh {
     /// File it came from.
     pub file: PathBuf,
@@ -135,15 +135,7 @@ impl MacroMesh {
             ratios: vec![None; raw.vertices.len()],
             vertices: raw.vertices,
             triangles: Vec::with_capacity(raw.triangles.len()),
-            edges: Vec::new(),
-            bodies: Vec::new(),
-            parts: Vec::new(),
-            pieces: Vec::new(),
-            boundaries: Vec::new(),
-            interfaces: Vec::new(),
-            points: Vec::new(),
-            has_midsides: false,
-            plane: Plane::default(),
+            ..Self::default()
         };
         let mut parts = vec![None; raw.names.len()];
         for &RawTriangle { corners, names, place } in &raw.triangles {
@@ -228,22 +220,24 @@ impl MacroMesh {
 
     /// Bodies meet only in contact: no edge and no vertex may belong to two of them.
     fn check_bodies_are_apart(&self) -> Result<(), MeshError> {
-        let mut owner = vec![None; self.vertices.len()];
-        for triangle in &self.triangles {
-            for &vertex in &triangle.vertices {
-                let body = owner[vertex as usize].get_or_insert(triangle.body);
-                if *body != triangle.body {
-                    let (x, [first, second]) =
-                        (self.vertices[vertex as usize], [*body, triangle.body].map(|b| &self.bodies[b as usize]));
-                    let part = &self.parts[triangle.part as usize].name;
-                    return Err(self.unusable(format!(
-                        "bodies \"{first}\" and \"{second}\" share the node at {}; give each body points and lines of its own, contact joins them; if they are one body of several materials, name it once and give each of its parts a table, as in [body.NAME.part.\"{part}\"]",
-                        Coordinates(x)
-                    )));
-                }
-            }
-        }
-        Ok(())
+        let Some((x, other, triangle)) = self.shared_vertex(|triangle| triangle.body) else { return Ok(()) };
+        let [first, second] = [other, triangle.body].map(|body| &self.bodies[body as usize]);
+        let part = &self.parts[triangle.part as usize].name;
+        Err(self.unusable(format!(
+            "bodies \"{first}\" and \"{second}\" share the node at {}; give each body points and lines of its own, contact joins them; if they are one body of several materials, name it once and give each of its parts a table, as in [body.NAME.part.\"{part}\"]",
+            Coordinates(x)
+        )))
+    }
+
+    /// The first vertex that triangles of two owners have: where it is, the owner that it had, and the triangle of the other one.
+    pub(super) fn shared_vertex(&self, owner: impl Fn(&MacroTriangle) -> u32) -> Option<(Point, u32, &MacroTriangle)> {
+        let mut owners = vec![None; self.vertices.len()];
+        self.triangles.iter().flat_map(|triangle| triangle.vertices.map(|vertex| (vertex, triangle))).find_map(
+            |(vertex, triangle)| {
+                let known = *owners[vertex as usize].get_or_insert(owner(triangle));
+                (known != owner(triangle)).then(|| (self.vertices[vertex as usize], known, triangle))
+            },
+        )
     }
 
     /// Puts a line on an edge, if it is one, onto its boundary, once; `placed` are the boundaries, by their indices, and edges that
@@ -294,6 +288,16 @@ impl MacroMesh {
         self.boundaries.iter().find(|boundary| boundary.name == name)
     }
 
+    /// Macro edges of the boundary of that name; none if the mesh has no such.
+    pub fn edges_of(&self, name: &str) -> &[u32] {
+        self.boundary(name).map_or(&[], |boundary| &boundary.edges)
+    }
+
+    /// Macro edges of boundaries, in their order; some may come more than once.
+    pub fn edges_on<'a>(&'a self, names: &'a [String]) -> impl Iterator<Item = u32> + 'a {
+        names.iter().flat_map(|name| self.edges_of(name)).copied()
+    }
+
     /// The physical curves of the mesh file.
     pub fn physical_curves(&self) -> Vec<&Boundary> {
         self.boundaries.iter().filter(|boundary| !boundary.is_union).collect()
@@ -304,9 +308,8 @@ impl MacroMesh {
         if self.boundary(name).is_some() {
             return;
         }
-        let all = curves.iter().filter_map(|curve| self.boundary(curve)).flat_map(|boundary| boundary.edges.iter().copied());
         let mut seen = HashSet::new();
-        let edges = all.filter(|edge| seen.insert(*edge)).collect();
+        let edges = self.edges_on(curves).filter(|edge| seen.insert(*edge)).collect();
         self.boundaries.push(Boundary { name: name.into(), edges, is_union: true });
     }
 
@@ -328,6 +331,16 @@ impl MacroMesh {
         second.is_some() && first != second
     }
 
+    /// Places of the corners of a macro triangle.
+    pub fn corners(&self, triangle: usize) -> [Point; 3] {
+        self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize])
+    }
+
+    /// Places of the ends of a macro edge.
+    pub fn edge_ends(&self, edge: u32) -> [Point; 2] {
+        self.edges[edge as usize].vertices.map(|vertex| self.vertices[vertex as usize])
+    }
+
     /// Straight length of a macro edge.
     pub fn edge_length(&self, edge: u32) -> f64 {
         let [a, b] = self.edges[edge as usize].vertices;
@@ -336,7 +349,7 @@ impl MacroMesh {
 
     /// Smallest angle of a macro triangle with straight sides (radians).
     pub fn smallest_angle(&self, triangle: usize) -> f64 {
-        smallest_angle(self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize]))
+        smallest_angle(self.corners(triangle))
     }
 
     /// Smallest box around all vertices of each piece: lower left and upper right corner.

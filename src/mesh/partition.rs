@@ -51,13 +51,13 @@ impl Graph {
 /// Two edges that face each other have discs that overlap: along the first their middles are half their lengths apart at most,
 /// across it the longer one's length.
 fn reach(mesh: &MacroMesh, edge: u32) -> Disc {
-    let [a, b] = mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+    let [a, b] = mesh.edge_ends(edge);
     Disc { middle: 0.5 * (a + b), radius: 1.25 * (b - a).norm() }
 }
 
 /// Whether two boundary edges face each other: seen along the first, they overlap, no farther apart than the longer is long.
 fn face(mesh: &MacroMesh, a: u32, b: u32) -> bool {
-    let ends = |edge: u32| mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+    let ends = |edge: u32| mesh.edge_ends(edge);
     let ([a0, a1], [b0, b1]) = (ends(a), ends(b));
     let along = (a1 - a0).normalize();
     let (s0, s1) = ((b0 - a0).dot(&along), (b1 - a0).dot(&along));
@@ -274,7 +274,7 @@ mod tests {
         let mesh = two_blocks();
         let at = |name: &str, x: f64| -> u32 {
             let middle = |edge: u32| {
-                let [a, b] = mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+                let [a, b] = mesh.edge_ends(edge);
                 0.5 * (a.x + b.x)
             };
             *edges(&mesh, name).iter().find(|&&edge| (middle(edge) - x).abs() < 1e-12).expect("an edge")
@@ -295,7 +295,7 @@ mod tests {
         let order = partition.triangles_of(0);
         assert_eq!(order.iter().collect::<HashSet<_>>().len(), count);
         let middle = |triangle: u32| {
-            let [a, b, c] = mesh.triangles[triangle as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+            let [a, b, c] = mesh.corners(triangle as usize);
             (a + b + c) / 3.0
         };
         for (body, triangles) in order.chunks(count / 2).enumerate() {

@@ -15,6 +15,11 @@ impl MacroMesh {
         if is_on_axis { Point::new(0.0, there.y) } else { there }
     }
 
+    /// Macro edges on the axis of revolution.
+    pub fn edges_on_axis(&self) -> impl Iterator<Item = u32> {
+        (0..self.edges.len() as u32).filter(|&edge| self.edge_ends(edge).iter().all(|end| end.x == 0.0))
+    }
+
     /// Says what the plane stands for. In a body of revolution vertices beside the axis by rounding come to lie on it.
     ///
     /// # Errors

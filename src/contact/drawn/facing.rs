@@ -120,7 +120,7 @@ pub fn largest_sagitta(mesh: &MacroMesh, seen: &[Seen]) -> f64 {
     let normals = SmoothNormals::new(mesh, &edges);
     let small = |edge: u32| seen.iter().filter(|seen| seen.edge.nodes[0].edge == edge).count().max(1) as f64;
     let sagitta = |&edge: &u32| {
-        let [a, b] = mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+        let [a, b] = mesh.edge_ends(edge);
         let height = (normals.at(mesh, edge, 0.5).place - 0.5 * (a + b)).norm();
         if mesh.edges[edge as usize].shape.is_some() { height / small(edge).powi(2) } else { height }
     };

@@ -112,7 +112,7 @@ impl MacroMesh {
     /// Reference coordinates `(xi, eta)` of a point in a macro triangle by Newton's method on its map; points outside count as inside
     /// up to the distance `near` (barycentric), and nothing is found of those beyond.
     pub fn locate_near(&self, triangle: usize, x: Point, near: f64) -> Option<Point> {
-        let [a, b, c] = self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize]);
+        let [a, b, c] = self.corners(triangle);
         let size = (b - a).norm().max((c - a).norm()).max((c - b).norm());
         if (x - (a + b + c) / 3.0).norm() > 1.5 * size {
             return None;
@@ -208,7 +208,7 @@ mod tests {
         let (mesh, _) = bent();
         let edge = mesh.boundary("lower.seam").expect("it has one").edges[0];
         let triangle = mesh.beside(edge).0 as usize;
-        let corners = mesh.triangles[triangle].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+        let corners = mesh.corners(triangle);
         let tiny = 7e-17;
         for (at, corner) in [([1.0, -tiny], 1), ([tiny, tiny], 0), ([-tiny, 1.0], 2), ([tiny, 1.0], 2), ([1.0, tiny], 1)] {
             let x = mesh.position(triangle, at[0], at[1]);

@@ -61,7 +61,7 @@ impl MacroMesh {
 
     /// The corners within the smooth stretches of a boundary that is not bent: all of its chords have them.
     pub fn corners_left(&self, boundary: &str) -> Vec<Corner> {
-        let edges = self.boundary(boundary).map(|found| found.edges.as_slice()).unwrap_or(&[]);
+        let edges = self.edges_of(boundary);
         let unbent = |stretch: &Stretch| self.edges[stretch.edges[0] as usize].shape.is_none() && !stretch.curve.is_line();
         let all = self.stretches(edges).into_iter().filter(unbent).map(|stretch| self.points_with_turns(&stretch.edges));
         all.flat_map(|points| points.windows(3).map(|three| Corner { place: three[1], angle: turn(three) }).collect::<Vec<_>>())
@@ -80,10 +80,10 @@ impl MacroMesh {
 
     /// How far the farthest chord of a boundary lies from the spline that it is bent onto (length); 0 if none is.
     pub fn bent_by(&self, boundary: &str) -> f64 {
-        let edges = self.boundary(boundary).map(|found| found.edges.as_slice()).unwrap_or(&[]);
+        let edges = self.edges_of(boundary);
         let bent = |edge: &&u32| self.edges[**edge as usize].shape.as_ref().is_some_and(EdgeShape::is_spline);
         let height = |&edge: &u32| {
-            let [a, b] = self.edges[edge as usize].vertices.map(|vertex| self.vertices[vertex as usize]);
+            let [a, b] = self.edge_ends(edge);
             (self.edge_position(edge, 0.5) - 0.5 * (a + b)).norm()
         };
         edges.iter().filter(bent).map(height).fold(0.0, f64::max)
@@ -138,7 +138,7 @@ mod tests {
         mesh.bend_onto_splines(&[&name, &name]);
         let edges = mesh.boundary(&name).expect("named").edges.clone();
         for &edge in &edges {
-            let [a, b] = mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+            let [a, b] = mesh.edge_ends(edge);
             assert!(
                 (mesh.edge_position(edge, 1e-9) - a).norm() < 1e-8 && (mesh.edge_position(edge, 1.0 - 1e-9) - b).norm() < 1e-8
             );

@@ -34,10 +34,6 @@ impl MacroMesh {
         }
         Ok(())
     }
-
-    fn corners(&self, triangle: usize) -> [Point; 3] {
-        self.triangles[triangle].vertices.map(|vertex| self.vertices[vertex as usize])
-    }
 }
 
 /// Whether two triangles, both counter-clockwise, have an area in common: no side of either parts them.

@@ -38,20 +38,11 @@ impl MacroMesh {
     }
 
     fn check_hinges(&self) -> Result<(), MeshError> {
-        let mut owner = vec![None; self.vertices.len()];
-        for triangle in &self.triangles {
-            for &vertex in &triangle.vertices {
-                let piece = owner[vertex as usize].get_or_insert(triangle.piece);
-                if *piece != triangle.piece {
-                    let x = self.vertices[vertex as usize];
-                    return Err(self.unusable(format!(
-                        "two pieces of body \"{}\" hang together by nothing but the node at ({}, {}); a single node transmits no force in the plane: join them along an edge, or make them bodies with points of their own",
-                        self.bodies[triangle.body as usize], x.x, x.y
-                    )));
-                }
-            }
-        }
-        Ok(())
+        let Some((x, _, triangle)) = self.shared_vertex(|triangle| triangle.piece) else { return Ok(()) };
+        Err(self.unusable(format!(
+            "two pieces of body \"{}\" hang together by nothing but the node at ({}, {}); a single node transmits no force in the plane: join them along an edge, or make them bodies with points of their own",
+            self.bodies[triangle.body as usize], x.x, x.y
+        )))
     }
 
     fn check_count(&self) -> Result<(), MeshError> {
@@ -75,7 +66,7 @@ impl MacroMesh {
         let mut parts = vec![0; self.bodies.len()];
         self.parts.iter().for_each(|part| parts[part.body as usize] += 1);
         for (body, edges) in self.outer_edges().iter().enumerate().filter(|(body, _)| parts[*body] > 1) {
-            let ends = |at: usize| self.edges[edges[at] as usize].vertices.map(|vertex| self.vertices[vertex as usize]);
+            let ends = |at: usize| self.edge_ends(edges[at]);
             let disc = |at: usize| Disc { middle: 0.5 * (ends(at)[0] + ends(at)[1]), radius: 0.5 * self.edge_length(edges[at]) };
             let discs: Vec<Disc> = (0..edges.len()).map(disc).collect();
             let beside = |at: usize| &self.triangles[self.beside(edges[at]).0 as usize];
@@ -109,7 +100,7 @@ impl MacroMesh {
         if self.pieces.iter().filter(|piece| piece.body == body).count() == 1 {
             return format!("body {name}");
         }
-        let corners = self.triangles[first as usize].vertices.map(|vertex| self.vertices[vertex as usize]);
+        let corners = self.corners(first as usize);
         let x = (corners[0] + corners[1] + corners[2]) / 3.0;
         format!("the piece of body {name} around ({:.6}, {:.6}), which shares no edge with the rest of the body,", x.x, x.y)
     }

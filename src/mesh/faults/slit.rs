@@ -33,8 +33,7 @@ impl MacroMesh {
     }
 
     fn slit_of(&self, body: usize, edges: &[u32]) -> Option<Slit> {
-        let ends: Vec<[Point; 2]> =
-            edges.iter().map(|&edge| self.edges[edge as usize].vertices.map(|vertex| self.vertices[vertex as usize])).collect();
+        let ends: Vec<[Point; 2]> = edges.iter().map(|&edge| self.edge_ends(edge)).collect();
         let disc = |[a, b]: &[Point; 2]| Disc { middle: 0.5 * (a + b), radius: 0.5 * SAME * (b - a).norm() };
         let discs: Vec<Disc> = ends.iter().map(disc).collect();
         let same = |[a, b]: [Point; 2], [c, d]: [Point; 2]| {

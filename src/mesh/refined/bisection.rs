@@ -8,7 +8,6 @@
 
 use crate::geometry::Point;
 use crate::mesh::macro_mesh::{MacroMesh, MacroTriangle};
-use crate::mesh::refined::connected::Connected;
 use crate::mesh::refined::origin::Origin;
 
 /// A side that is so many times shorter than the longest one of its triangle is halved after that one only.
@@ -60,13 +59,13 @@ impl BisectedMesh {
             middles[edge] = Some(vertices.len() as u32);
             vertices.push(self.mesh.edge_position(edge as u32, 0.5));
         }
-        let mut next = Connected::new(&self.mesh, vertices);
+        let mut next = self.mesh.without_triangles(vertices);
         let (mut sides, mut origins) = (Vec::new(), Vec::new());
         for (triangle, known) in self.mesh.triangles.iter().enumerate() {
             for (part, side) in self.parts(triangle, &middles) {
-                sides.push(side.unwrap_or_else(|| part.side(&next.mesh.vertices)));
+                sides.push(side.unwrap_or_else(|| part.side(&next.vertices)));
                 origins.push(self.part(triangle, &middles, part.0).within(&self.origins));
-                next.add(part.0, known);
+                next.add_part(part.0, known);
             }
         }
         let mesh = next.divide_edges(&self.mesh, |edge| Some((middles[edge]?, 0.5)));

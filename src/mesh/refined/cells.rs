@@ -44,11 +44,6 @@ impl Cells {
         self.0[cell_at(point)] += value;
     }
 
-    /// Adds what lies evenly in all of the triangle.
-    pub fn add_evenly(&mut self, value: f64) {
-        self.0.iter_mut().for_each(|sum| *sum += value / Self::COUNT as f64);
-    }
-
     /// Multiplied by a factor.
     pub fn scaled(&self, factor: f64) -> Self {
         Self(self.0.map(|value| factor * value))
@@ -103,8 +98,7 @@ mod tests {
 
     #[test]
     fn parts_share_what_the_whole_has() {
-        let mut whole = Cells::default();
-        whole.add_evenly(3.0);
+        let mut whole = Cells::new(|_| 3.0 / Cells::COUNT as f64);
         whole.add([0.9, 0.05, 0.05], 2.0);
         let (a, b, c, m) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.5, 0.5]);
         let halves = [[m, a, b], [m, c, a]].map(|corners| whole.of_part(&Origin { triangle: 0, corners }));

@@ -4,48 +4,37 @@ use crate::geometry::Point;
 use crate::mesh::edge_shape::EdgeShape;
 use crate::mesh::macro_mesh::{BodyPiece, Boundary, MacroMesh, MacroTriangle};
 
-/// A mesh that is being connected.
-pub(crate) struct Connected {
-    /// The mesh so far, without edges.
-    pub mesh: MacroMesh,
-}
-
-impl Connected {
-    /// The bodies of a mesh without its triangles.
-    pub fn new(before: &MacroMesh, vertices: Vec<Point>) -> Self {
-        let mut ratios = before.ratios.clone();
+impl MacroMesh {
+    /// The bodies of this mesh without its triangles, to be given others: [`MacroMesh::add_part`], then [`MacroMesh::divide_edges`].
+    pub(super) fn without_triangles(&self, vertices: Vec<Point>) -> Self {
+        let mut ratios = self.ratios.clone();
         ratios.resize(vertices.len(), None);
-        let pieces = before.pieces.iter().map(|piece| BodyPiece { first: u32::MAX, ..piece.clone() }).collect();
-        let mesh = MacroMesh {
-            file: before.file.clone(),
+        Self {
+            file: self.file.clone(),
             vertices,
             ratios,
-            triangles: Vec::new(),
-            edges: Vec::new(),
-            bodies: before.bodies.clone(),
-            parts: before.parts.clone(),
-            pieces,
-            boundaries: Vec::new(),
-            interfaces: Vec::new(),
-            points: before.points.clone(),
-            has_midsides: before.has_midsides,
-            plane: before.plane,
-        };
-        Self { mesh }
+            bodies: self.bodies.clone(),
+            parts: self.parts.clone(),
+            pieces: self.pieces.iter().map(|piece| BodyPiece { first: u32::MAX, ..piece.clone() }).collect(),
+            points: self.points.clone(),
+            has_midsides: self.has_midsides,
+            plane: self.plane,
+            ..Self::default()
+        }
     }
 
     /// Adds a triangle of the same part and piece as one of the mesh before.
-    pub fn add(&mut self, vertices: [u32; 3], before: &MacroTriangle) {
-        let triangle = self.mesh.triangles.len() as u32;
-        let piece = &mut self.mesh.pieces[before.piece as usize];
+    pub(super) fn add_part(&mut self, vertices: [u32; 3], before: &MacroTriangle) {
+        let triangle = self.triangles.len() as u32;
+        let piece = &mut self.pieces[before.piece as usize];
         piece.first = piece.first.min(triangle);
-        self.mesh.triangles.push(MacroTriangle { vertices, ..before.clone() });
+        self.triangles.push(MacroTriangle { vertices, ..before.clone() });
     }
 
     /// Finds the edges and gives them the shapes, and the boundaries, of the edges that they are parts of; `divided` tells the
     /// vertex that divides an edge, and at which fraction of it.
-    pub fn divide_edges(self, before: &MacroMesh, divided: impl Fn(usize) -> Option<(u32, f64)>) -> MacroMesh {
-        let mut mesh = self.mesh;
+    pub(super) fn divide_edges(self, before: &Self, divided: impl Fn(usize) -> Option<(u32, f64)>) -> Self {
+        let mut mesh = self;
         let (edges, _) = mesh.connect();
         let find = |mesh: &MacroMesh, ends| edges.between(&mesh.triangles, ends).expect("parts of edges are edges");
         let mut bend = |ends: [u32; 2], shape: EdgeShape| {

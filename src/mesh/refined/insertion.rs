@@ -10,7 +10,6 @@ use crate::mesh::located::Located;
 use crate::mesh::macro_mesh::smallest_angle;
 use crate::mesh::macro_mesh::{MacroMesh, MacroTriangle};
 use crate::mesh::refined::bisection::BisectedMesh;
-use crate::mesh::refined::connected::Connected;
 use crate::mesh::spot::{NamedPoint, Spot};
 use std::collections::HashSet;
 
@@ -104,11 +103,11 @@ impl MacroMesh {
             at += 1;
         }
         let new = self.vertices.len() as u32;
-        let mut next = Connected::new(self, self.vertices.iter().copied().chain([x]).collect());
+        let mut next = self.without_triangles(self.vertices.iter().copied().chain([x]).collect());
         let mut angle = f64::INFINITY;
         for (triangle, known) in self.triangles.iter().enumerate() {
             if !cavity.contains(&(triangle as u32)) {
-                next.add(known.vertices, known);
+                next.add_part(known.vertices, known);
                 continue;
             }
             for k in 0..3 {
@@ -118,8 +117,8 @@ impl MacroMesh {
                     continue;
                 }
                 let corners = [new, known.vertices[k], known.vertices[(k + 1) % 3]];
-                angle = angle.min(self.new_angle(edge, corners.map(|corner| next.mesh.vertices[corner as usize])));
-                next.add(corners, known);
+                angle = angle.min(self.new_angle(edge, corners.map(|corner| next.vertices[corner as usize])));
+                next.add_part(corners, known);
             }
         }
         let mesh = next.divide_edges(self, |edge| split.filter(|(split, _)| *split as usize == edge).map(|(_, t)| (new, t)));

@@ -269,8 +269,7 @@ mod tests {
     fn the_next_mesh_is_finer_enough_to_tell_something() {
         let first = BisectedMesh::new(columns(40, 1.0));
         let everywhere = (0..first.mesh.triangles.len()).map(|k| {
-            let mut cells = Cells::default();
-            cells.add_evenly(1.0 + 0.01 * k as f64);
+            let cells = Cells::new(|_| (1.0 + 0.01 * k as f64) / Cells::COUNT as f64);
             LocalIndicator { cells, fall: 0.25 }
         });
         let goal = Indicators { local: everywhere.collect(), error: Some(0.79), pace: 1.0, is_norm: true };
