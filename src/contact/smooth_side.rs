@@ -73,7 +73,7 @@ impl SmoothSide {
     /// The stretches of both sides of a pair.
     pub fn of_pair(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, displacement: Displacement) -> [Vec<Self>; 2] {
         [Side::First, Side::Second].map(|side| {
-            let edges = mesh.boundary(&pair.between[side as usize]).map(|b| b.edges.as_slice()).unwrap_or(&[]);
+            let edges = mesh.edges_of(&pair.between[side as usize]);
             let bears = pair.curve.own_side().map(|own| own == side);
             let new = |stretch: &Stretch| Self { bears, ..Self::new(mesh, numbering, stretch, displacement) };
             mesh.stretches(edges).iter().map(new).collect()
@@ -120,10 +120,7 @@ impl SmoothSide {
             (places[last], points[last]) = (places[0], points[0]);
         }
         let parameters = chord_lengths(&places);
-        let spline = |points: &[Point]| match closed {
-            true => Curve::Spline(Spline::through_closed_at(parameters.clone(), points)),
-            false => Curve::Spline(Spline::through_at(parameters.clone(), points)),
-        };
+        let spline = |points: &[Point]| Curve::Spline(Spline::through(parameters.clone(), points, closed));
         let (undeformed, shift) = (spline(&places), Point::zeros());
         let deformed = if points == places { undeformed.clone() } else { spline(&points) };
         Self {

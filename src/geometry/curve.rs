@@ -192,6 +192,7 @@ impl Curve {
 #[cfg(test)]
 mod tests {
     use super::super::formula::Formula;
+    use super::super::spline::chord_lengths;
     use super::*;
 
     fn parabola() -> Curve {
@@ -236,7 +237,7 @@ mod tests {
     #[test]
     fn a_point_far_beyond_the_ends_of_a_spline_has_its_foot_on_the_tangent_there() {
         let points: Vec<Point> = (0..9).map(|k| 0.01 * f64::from(k)).map(|t| Point::new(t.sin(), 1.0 - t.cos())).collect();
-        let curve = Curve::Spline(Spline::through(&points));
+        let curve = Curve::Spline(Spline::through(chord_lengths(&points), &points, false));
         for p in [Point::new(80.0, 3.0), Point::new(-80.0, 3.0)] {
             let t = curve.nearest(p);
             assert!((p - curve.point(t)).dot(&curve.tangent(t)).abs() < 1e-12, "{p}: {t}");
@@ -246,7 +247,7 @@ mod tests {
     #[test]
     fn a_curve_that_is_moved_has_its_points_moved() {
         let points: Vec<Point> = (0..9).map(|k| Point::new(f64::from(k).cos(), f64::from(k))).collect();
-        let spline = Curve::Spline(super::super::spline::Spline::through(&points));
+        let spline = Curve::Spline(Spline::through(chord_lengths(&points), &points, false));
         let circle = Curve::Circle { centre: [1.0, -1.0], radius: 2.0 };
         let by = Point::new(0.3, -4.0);
         for curve in [Curve::Line([[0.0, 3.0], [6.0, 4.0]]), circle, parabola(), spline] {

@@ -1,7 +1,7 @@
 //! Boundaries as chains of vertices, split at corners.
 
 use super::macro_mesh::MacroMesh;
-use crate::geometry::{Curve, Point, Spline, cross};
+use crate::geometry::{Curve, Point, Spline, chord_lengths, cross};
 use std::sync::Arc;
 
 /// A boundary that turns by more than this at a vertex (radians, 20 degrees) has a corner there.
@@ -39,8 +39,7 @@ impl MacroMesh {
             first != last && points.iter().all(|x| cross(last - first, x - first).abs() <= 1e-12 * (last - first).norm_squared());
         match straight {
             true => Curve::Line([first.into(), last.into()]),
-            false if self.is_closed(chain) => Curve::Spline(Spline::through_closed(&points)),
-            false => Curve::Spline(Spline::through(&points)),
+            false => Curve::Spline(Spline::through(chord_lengths(&points), &points, self.is_closed(chain))),
         }
     }
 

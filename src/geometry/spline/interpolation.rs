@@ -4,43 +4,17 @@ use super::Spline;
 use crate::geometry::Point;
 
 impl Spline {
-    /// The spline through `points`, in their order, with the length of the chords as its parameter; at the second
-    /// point from each end the third derivative is continuous too ("not a knot"), so that it is of fourth order up to
-    /// its ends. Two points give a line, three a parabola.
+    /// The spline through `points`, in their order, at given parameters, ascending, as the lengths of the chords are; at the second
+    /// point from each end the third derivative is continuous too ("not a knot"), so that it is of fourth order up to its ends. Two
+    /// points give a line, three a parabola. The last point of a closed one is the first again.
     ///
     /// # Panics
-    /// If there are fewer than two points.
-    pub fn through(points: &[Point]) -> Self {
-        Self::through_at(chord_lengths(points), points)
-    }
-
-    /// The spline through `points` at given parameters, ascending, one for each point, with the third derivative continuous at
-    /// the second point from each end ("not a knot").
-    ///
-    /// # Panics
-    /// If there are fewer than two points, or not as many parameters.
-    pub fn through_at(knots: Vec<f64>, points: &[Point]) -> Self {
-        assert!(points.len() > 1 && points.len() == knots.len(), "a spline needs two points, each with a parameter");
-        let curvature = curvatures(&knots, points);
-        Self::with_curvatures(knots, points, &curvature, false)
-    }
-
-    /// The closed spline through `points`, of which the last is the first again, with the length of the chords as its parameter.
-    ///
-    /// # Panics
-    /// If there are fewer than four points (three places).
-    pub fn through_closed(points: &[Point]) -> Self {
-        Self::through_closed_at(chord_lengths(points), points)
-    }
-
-    /// The closed spline through `points`, of which the last is the first again, each with a parameter, ascending.
-    ///
-    /// # Panics
-    /// If there are fewer than four points (three places), or not as many parameters.
-    pub fn through_closed_at(knots: Vec<f64>, points: &[Point]) -> Self {
-        assert!(points.len() > 3 && points.len() == knots.len(), "a closed spline needs three places, each with a parameter");
-        let curvature = closed_curvatures(&knots, points);
-        Self::with_curvatures(knots, points, &curvature, true)
+    /// If there are fewer than two points, or four of a closed one (three places), or not as many parameters.
+    pub fn through(knots: Vec<f64>, points: &[Point], closed: bool) -> Self {
+        let least = if closed { 4 } else { 2 };
+        assert!(points.len() >= least && points.len() == knots.len(), "a spline needs {least} points, each with a parameter");
+        let curvature = if closed { closed_curvatures(&knots, points) } else { curvatures(&knots, points) };
+        Self::with_curvatures(knots, points, &curvature, closed)
     }
 
     /// The spline through points at these parameters with these second derivatives there.
@@ -87,21 +61,30 @@ fn curvatures(knots: &[f64], points: &[Point]) -> Vec<Point> {
         rows[row].0[1] += entry * (near + far) / far;
         rows[row].0[inner] -= entry * near / far;
     }
-    for k in 1..=last {
+    let inner = eliminated(rows);
+    let mut m: Vec<Point> = [Point::zeros()].into_iter().chain(inner).chain([Point::zeros()]).collect();
+    for (end, next, beyond, [near, far]) in [(0, 1, 2, ends[0]), (n - 1, n - 2, n - 3, ends[1])] {
+        m[end] = ((near + far) * m[next] - near * m[beyond]) / far;
+    }
+    m
+}
+
+/// The solution of a system of three diagonals, by its rows `lower, middle, upper | right`; nothing is before the first, and behind
+/// the last.
+fn eliminated(mut rows: Vec<([f64; 3], Point)>) -> Vec<Point> {
+    for k in 1..rows.len() {
         let ([_, middle, upper], right) = rows[k - 1];
         let factor = rows[k].0[0] / middle;
         rows[k].0[1] -= factor * upper;
         rows[k].1 -= factor * right;
     }
-    let mut m = vec![Point::zeros(); n];
-    for k in (0..=last).rev() {
-        let ([_, middle, upper], right) = rows[k];
-        m[k + 1] = if k == last { right / middle } else { (right - upper * m[k + 2]) / middle };
+    let mut values = vec![Point::zeros(); rows.len()];
+    let mut next = Point::zeros();
+    for (value, ([_, middle, upper], right)) in values.iter_mut().zip(&rows).rev() {
+        *value = (right - *upper * next) / *middle;
+        next = *value;
     }
-    for (end, next, beyond, [near, far]) in [(0, 1, 2, ends[0]), (n - 1, n - 2, n - 3, ends[1])] {
-        m[end] = ((near + far) * m[next] - near * m[beyond]) / far;
-    }
-    m
+    values
 }
 
 /// Second derivatives at the knots of the closed spline through points, of which the last is the first again: a cyclic system of
@@ -123,17 +106,8 @@ fn closed_curvatures(knots: &[f64], points: &[Point]) -> Vec<Point> {
     };
     let right = |k: usize| 6.0 * (slope(k) - slope(k + n - 1));
     let solve = |right: &dyn Fn(usize) -> Point| {
-        let (mut middle, mut values) = (Vec::with_capacity(n), Vec::with_capacity(n));
-        for k in 0..n {
-            let factor = if k == 0 { 0.0 } else { h(k - 1) / middle[k - 1] };
-            middle.push(diagonal(k) - if k == 0 { 0.0 } else { factor * h(k - 1) });
-            values.push(if k == 0 { right(0) } else { right(k) - factor * values[k - 1] });
-        }
-        for k in (0..n).rev() {
-            let next = if k + 1 < n { h(k) * values[k + 1] } else { Point::zeros() };
-            values[k] = (values[k] - next) / middle[k];
-        }
-        values
+        let row = |k: usize| ([h(k + n - 1), diagonal(k), h(k)], right(k));
+        eliminated((0..n).map(row).collect())
     };
     let base = solve(&right);
     let ends = |k: usize| match k {
@@ -150,6 +124,14 @@ fn closed_curvatures(knots: &[f64], points: &[Point]) -> Vec<Point> {
 mod tests {
     use super::*;
 
+    fn through(points: &[Point]) -> Spline {
+        Spline::through(chord_lengths(points), points, false)
+    }
+
+    fn through_closed(points: &[Point]) -> Spline {
+        Spline::through(chord_lengths(points), points, true)
+    }
+
     fn arc(count: usize) -> Vec<Point> {
         (0..=count).map(|k| 1.5 * k as f64 / count as f64).map(|a| Point::new(2.0 * a.cos(), 2.0 * a.sin())).collect()
     }
@@ -162,12 +144,12 @@ mod tests {
 
     #[test]
     fn the_spline_through_an_arc_is_of_fourth_order() {
-        let errors = [8, 16, 32].map(|count| off(&Spline::through(&arc(count))));
+        let errors = [8, 16, 32].map(|count| off(&through(&arc(count))));
         for pair in errors.windows(2) {
             assert!((pair[0] / pair[1]).log2() > 3.7, "{errors:?}");
         }
         for (k, point) in arc(8).iter().enumerate() {
-            let spline = Spline::through(&arc(8));
+            let spline = through(&arc(8));
             assert!((spline.point(spline.knots[k]) - point).norm() < 1e-14);
         }
     }
@@ -181,18 +163,18 @@ mod tests {
 
     #[test]
     fn a_closed_spline_is_of_fourth_order_and_as_smooth_at_its_seam_as_elsewhere() {
-        let errors = [10, 20, 40].map(|count| off(&Spline::through_closed(&circle(count))));
+        let errors = [10, 20, 40].map(|count| off(&through_closed(&circle(count))));
         for pair in errors.windows(2) {
             assert!((pair[0] / pair[1]).log2() > 3.4, "{errors:?}");
         }
         let points = circle(12);
-        let spline = Spline::through_closed(&points);
+        let spline = through_closed(&points);
         for (t, point) in spline.knots.iter().zip(&points) {
             assert!((spline.point(*t) - point).norm() < 1e-13);
         }
         // Begun at another point it is the same curve.
         let turned: Vec<Point> = (0..=12).map(|k| points[(k + 5) % 12]).collect();
-        let other = Spline::through_closed(&turned);
+        let other = through_closed(&turned);
         let period = spline.period().expect("closed");
         for k in 0..50 {
             let t = 0.7 * f64::from(k) - 9.0;

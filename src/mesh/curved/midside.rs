@@ -4,7 +4,7 @@
 //! Neighbours that go on smoothly are one curve: the circle through their nodes where they lie on one, otherwise the spline
 //! through all of them. So refinement follows the body as it was drawn, and not the parabolas of the elements.
 
-use crate::geometry::{Coordinates, Curve, Point, Spline};
+use crate::geometry::{Coordinates, Curve, Point, Spline, chord_lengths};
 use crate::mesh::MeshError;
 use crate::mesh::curved::bow::{Bow, FLAT, go_on, is_inflection, on_one_circle};
 use crate::mesh::macro_mesh::MacroMesh;
@@ -193,7 +193,7 @@ fn spline_through(chain: &[Bow]) -> Curve {
         && (go_on([beside(count - 2), Some(last), Some(first), beside(1)])
             || is_inflection([beside(count - 3), beside(count - 2), Some(last), Some(first), beside(1)])
             || is_inflection([beside(count - 2), Some(last), Some(first), beside(1), beside(2)]));
-    Curve::Spline(if is_closed { Spline::through_closed(&points) } else { Spline::through(&points) })
+    Curve::Spline(Spline::through(chord_lengths(&points), &points, is_closed))
 }
 
 /// The circle that is nearest to all nodes, by least squares of the powers of the points, if they lie on it.
