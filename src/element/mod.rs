@@ -17,6 +17,18 @@ pub use plane_law::{Heat, Plane, PlaneLaw, Strain, von_mises};
 pub use shape::{edge_shape, edge_slope, shape, slopes};
 pub use stiffness::{Rule, SIX_POINTS, check_map, energies, heated_stress, six_points, stiffness, strain, stress};
 
+/// A function of triangles with as many nodes as an order has, called for it: `by_order!(order, f(x))` is `f::<3>(x)` for P1, and
+/// `f::<6>(x)` for P2.
+macro_rules! by_order {
+    ($order:expr, $function:ident($($argument:expr),* $(,)?)) => {
+        match $order {
+            $crate::element::Order::P1 => $function::<3>($($argument),*),
+            $crate::element::Order::P2 => $function::<6>($($argument),*),
+        }
+    };
+}
+pub(crate) use by_order;
+
 /// Polynomial degree of the displacement on a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {

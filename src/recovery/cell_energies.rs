@@ -3,7 +3,7 @@
 use crate::body::NodePositions;
 use crate::discretisation::agreed;
 use crate::discretisation::{Discretisation, Field, SystemError};
-use crate::element::{BadJacobian, Order, PlaneLaw, energies};
+use crate::element::{BadJacobian, PlaneLaw, by_order, energies};
 use crate::geometry::Point;
 use crate::mesh::{Cells, lattice};
 use crate::petsc::Session;
@@ -20,10 +20,7 @@ pub fn cell_energies(problem: &Discretisation, u: &Field<2>, session: &Session) 
     let own = problem.scene.partition.triangles_of(session.rank());
     let one = |&triangle: &u32| {
         let law = &laws[mesh.triangles[triangle as usize].part as usize];
-        match problem.finest().numbering.level.order {
-            Order::P1 => in_triangle::<3>(problem, u, triangle as usize, law),
-            Order::P2 => in_triangle::<6>(problem, u, triangle as usize, law),
-        }
+        by_order!(problem.finest().numbering.level.order, in_triangle(problem, u, triangle as usize, law))
     };
     agreed(session, own.iter().map(|triangle| one(triangle).map_err(SystemError::from)).collect())
 }

@@ -3,7 +3,7 @@
 use crate::body::positions;
 use crate::discretisation::agreed;
 use crate::discretisation::{Discretisation, Field, SystemError};
-use crate::element::{Heat, Order, Plane, PlaneLaw, Strain, jacobian, place_of, strain};
+use crate::element::{Heat, Plane, PlaneLaw, Strain, by_order, jacobian, place_of, strain};
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, MacroTriangle, lattice};
 use crate::petsc::Session;
@@ -51,10 +51,7 @@ pub fn deformations(problem: &Discretisation, u: &Field<2>, session: &Session) -
     let added = own.iter().try_for_each(|&at| {
         let triangle = &mesh.triangles[at as usize];
         let material = (&laws[triangle.part as usize], problem.scene.heat(triangle.part as usize));
-        let found = match problem.finest().numbering.level.order {
-            Order::P1 => integrals::<3>(problem, u, at as usize, material)?,
-            Order::P2 => integrals::<6>(problem, u, at as usize, material)?,
-        };
+        let found = by_order!(problem.finest().numbering.level.order, integrals(problem, u, at as usize, material))?;
         add_to_body(&mut totals[triangle.body as usize], &found, centroid(mesh, triangle));
         sums[at as usize] = [found[0], found[1]];
         Ok(())

@@ -3,37 +3,32 @@
 use crate::body::NodePositions;
 use crate::discretisation::agreed;
 use crate::discretisation::{Discretisation, Field, SystemError};
-use crate::element::{Heat, Order, PlaneLaw, SIX_POINTS, six_points, strain};
+use crate::element::{Heat, PlaneLaw, SIX_POINTS, by_order, six_points, strain};
 use crate::geometry::Formula;
 use crate::mesh::{Region, lattice};
-use crate::petsc::Session;
+use crate::recovery::evaluation::Evaluation;
 
-/// Integrals over a body or a part of one (`∫(σ_h - σ):C⁻¹(σ_h - σ)`, `∫σ:C⁻¹σ`) of the computed stress against formulas
-/// `xx, yy, xy, zz` of `x, y`, of which zz counts for bodies of revolution alone. Summed over bodies, the root of their ratio is the relative energy-norm error. **Collective**
-///
-/// # Errors
-/// [`SystemError`] where a triangle is inverted.
-pub fn energy_error(
-    problem: &Discretisation,
-    u: &Field<2>,
-    region: Region,
-    exact: &[Formula; 4],
-    session: &Session,
-) -> Result<[f64; 2], SystemError> {
-    let (mesh, laws) = (&problem.scene.mesh, problem.scene.laws());
-    let mut sums = [0.0; 2];
-    let own = problem.scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
-    let added = own.filter(|&triangle| region.holds(&mesh.triangles[triangle])).try_for_each(|triangle| {
-        let part = mesh.triangles[triangle].part as usize;
-        let (law, heat) = (&laws[part], problem.scene.heat(part));
-        match problem.finest().numbering.level.order {
-            Order::P1 => add::<3>(problem, u, triangle, (law, heat), exact, &mut sums),
-            Order::P2 => add::<6>(problem, u, triangle, (law, heat), exact, &mut sums),
-        }
-    });
-    agreed(session, added)?;
-    session.sum(&mut sums);
-    Ok(sums)
+impl Evaluation<'_> {
+    /// Error of the stress in a body or a part of one, and its size, both squared in the energy norm: integrals
+    /// (`∫(σ_h - σ):C⁻¹(σ_h - σ)`, `∫σ:C⁻¹σ`) of the computed stress against formulas `xx, yy, xy, zz` of `x, y`, of which zz counts for
+    /// bodies of revolution alone. Summed over bodies, the root of their ratio is the relative energy-norm error. **Collective**
+    ///
+    /// # Errors
+    /// [`SystemError`] where a triangle is inverted.
+    pub fn energy_error(&self, region: Region, exact: &[Formula; 4]) -> Result<[f64; 2], SystemError> {
+        let (problem, laws) = (self.problem, self.problem.scene.laws());
+        let triangles = &problem.scene.mesh.triangles;
+        let mut sums = [0.0; 2];
+        let own = problem.scene.partition.triangles_of(self.session.rank()).iter().map(|&triangle| triangle as usize);
+        let added = own.filter(|&triangle| region.holds(&triangles[triangle])).try_for_each(|triangle| {
+            let part = triangles[triangle].part as usize;
+            let material = (&laws[part], problem.scene.heat(part));
+            by_order!(problem.finest().numbering.level.order, add(problem, &self.u, triangle, material, exact, &mut sums))
+        });
+        agreed(self.session, added)?;
+        self.session.sum(&mut sums);
+        Ok(sums)
+    }
 }
 
 fn add<const N: usize>(

@@ -3,7 +3,6 @@
 use super::balance::{Balance, balance};
 use super::corners::{Corners, corners};
 use super::deformation::{Deformation, deformations};
-use super::error_norm::energy_error;
 use super::motion_error::{MotionError, growth_by_gap, motion_errors};
 use super::overlaps::{missing_force, unresolved_force};
 use super::penetrations::penetrations;
@@ -14,7 +13,7 @@ use super::traces::{TracePoint, trace_points};
 use super::zone_ends::{EndSlip, slip_at_ends};
 use crate::contact::Penetration;
 use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, SystemError};
-use crate::geometry::{Formula, Point};
+use crate::geometry::Point;
 use crate::mesh::Region;
 use crate::petsc::Session;
 use std::cell::OnceCell;
@@ -140,13 +139,5 @@ impl<'a> Evaluation<'a> {
     pub fn stress_peaks(&self, grows: &[bool]) -> Result<Vec<StressPeak>, SystemError> {
         let singular = all_singular_places(self.problem, self.solution, &self.balance, grows);
         Ok(stress_peaks(self.problem, (&self.u, self.stress()?), &singular, self.session))
-    }
-
-    /// Error of the stress in a body or a part of one, and its size, both squared in the energy norm, against formulas. **Collective**
-    ///
-    /// # Errors
-    /// As [`Evaluation::new`].
-    pub fn energy_error(&self, region: Region, exact: &[Formula; 4]) -> Result<[f64; 2], SystemError> {
-        energy_error(self.problem, &self.u, region, exact, self.session)
     }
 }

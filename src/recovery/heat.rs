@@ -5,7 +5,7 @@
 
 use crate::body::{NodePositions, heat_forces};
 use crate::discretisation::{Discretisation, Field, SystemError, agreed};
-use crate::element::{BadJacobian, Heat, Order, PlaneLaw, SIX_POINTS, jacobian, six_points};
+use crate::element::{BadJacobian, Heat, PlaneLaw, SIX_POINTS, by_order, jacobian, six_points};
 use crate::mesh::lattice;
 use crate::petsc::Session;
 
@@ -35,10 +35,7 @@ pub fn heat_energies(problem: &Discretisation, u: &Field<2>, session: &Session) 
         let [work, kept] = &mut sums[at];
         heat_forces(&scene.mesh, triangle as usize, numbering, parts[at], &mut |node, force| *work += force.dot(&u.point(node)))?;
         let law = parts[at].material.law();
-        *kept += match numbering.level.order {
-            Order::P1 => kept_energy::<3>(problem, triangle as usize, &law, heat)?,
-            Order::P2 => kept_energy::<6>(problem, triangle as usize, &law, heat)?,
-        };
+        *kept += by_order!(numbering.level.order, kept_energy(problem, triangle as usize, &law, heat))?;
         Ok::<(), SystemError>(())
     });
     agreed(session, added)?;

@@ -64,26 +64,21 @@ pub fn motion_errors(
     for (contact, needed) in problem.contacts.iter().zip(&mut needed) {
         *needed &= !is_between_tools(problem, contact, &|set| set.free().next().is_some());
     }
-    let all = || problem.contacts.iter().zip(&needed);
-    if !problem.contacts.iter().any(follows) {
-        return all()
-            .map(|(contact, &needed)| one(problem, solution, (contact, needed), energy, bodies, None, session))
-            .collect();
-    }
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
-    let motion = BoundaryMotion::new(&problem.scene, space, &solution.displacement, session);
-    let displacement = |node: EdgeNode| motion.at(node, mesh, space);
+    let motion = || BoundaryMotion::new(&problem.scene, space, &solution.displacement, session);
+    let motion = problem.contacts.iter().any(follows).then(motion);
     let with_sides = |(contact, &needed): (&Contact, &bool)| {
-        let meeting = contact.known.meeting.as_ref().filter(|_| follows(contact));
-        let sides = meeting.map(|meeting| {
+        let meeting = contact.known.meeting.as_ref().filter(|_| follows(contact)).zip(motion.as_ref());
+        let sides = meeting.map(|(meeting, motion)| {
+            let displacement = |node: EdgeNode| motion.at(node, mesh, space);
             let mut sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
             meeting.begin(&mut sides);
             sides
         });
-        let sides = meeting.zip(sides.as_ref()).map(|(meeting, sides)| meeting.sides(sides));
+        let sides = meeting.zip(sides.as_ref()).map(|((meeting, _), sides)| meeting.sides(sides));
         one(problem, solution, (contact, needed), energy, bodies, sides, session)
     };
-    all().map(with_sides).collect()
+    problem.contacts.iter().zip(&needed).map(with_sides).collect()
 }
 
 /// What motions spoil of one contact, which may be `needed` to hold bodies. **Collective**

@@ -3,7 +3,7 @@
 use crate::body::positions;
 use crate::discretisation::agreed;
 use crate::discretisation::{Discretisation, Field, SystemError};
-use crate::element::{Heat, Order, PlaneLaw, SIX_POINTS, heated_stress, shape, stress};
+use crate::element::{Heat, PlaneLaw, SIX_POINTS, by_order, heated_stress, shape, stress};
 use crate::geometry::Point;
 use crate::mesh::Region;
 use crate::mesh::lattice::Triangle;
@@ -46,54 +46,29 @@ pub fn probe(
     x: Point,
     session: &Session,
 ) -> Result<Option<Probed>, SystemError> {
+    let (scene, laws) = (&problem.scene, problem.scene.laws());
     for near in OUTSIDE {
-        let found = probe_near(problem, (u, probing), region, x, near, session)?;
-        if found.is_some() {
-            return Ok(found);
+        let mut sums = [0.0; 7];
+        let added = holding_nearly(problem, region, x, near, session).into_iter().try_for_each(|(triangle, at)| {
+            let heat = scene.heat(scene.mesh.triangles[triangle].part as usize).filter(|_| probing == Probing::Displacement);
+            let material = (law_of(problem, &laws, triangle), heat);
+            let values = by_order!(problem.finest().numbering.level.order, values_at(problem, u, triangle, at, material))?;
+            values.iter().chain(&[1.0]).zip(&mut sums).for_each(|(value, sum)| *sum += value);
+            Ok::<(), SystemError>(())
+        });
+        agreed(session, added)?;
+        session.sum(&mut sums);
+        if sums[6] > 0.0 {
+            let [x, y, stress @ .., _] = sums.map(|sum| sum / sums[6]);
+            return Ok(Some(Probed { displacement: Point::new(x, y), stress }));
         }
     }
     Ok(None)
 }
 
-/// Values at a point as [`probe`] finds them, where points outside count up to the distance `near` (barycentric). **Collective**
-fn probe_near(
-    problem: &Discretisation,
-    (u, probing): (&Field<2>, Probing),
-    region: Region,
-    x: Point,
-    near: f64,
-    session: &Session,
-) -> Result<Option<Probed>, SystemError> {
-    let laws = problem.scene.laws();
-    let mut sums = [0.0; 7];
-    let added = problem.scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
-        let triangle = triangle as usize;
-        if !region.holds(&problem.scene.mesh.triangles[triangle]) {
-            return Ok(());
-        }
-        let heat = problem.scene.heat(problem.scene.mesh.triangles[triangle].part as usize);
-        let material = (law_of(problem, &laws, triangle), heat.filter(|_| probing == Probing::Displacement));
-        let Some(at) = problem.scene.mesh.locate_near(triangle, x, near) else { return Ok(()) };
-        let values = match problem.finest().numbering.level.order {
-            Order::P1 => values_at::<3>(problem, u, triangle, at, material)?,
-            Order::P2 => values_at::<6>(problem, u, triangle, at, material)?,
-        };
-        values.iter().chain(&[1.0]).zip(&mut sums).for_each(|(value, sum)| *sum += value);
-        Ok::<(), SystemError>(())
-    });
-    agreed(session, added)?;
-    session.sum(&mut sums);
-    let mean = sums.map(|sum| sum / sums[6]);
-    Ok((sums[6] > 0.0)
-        .then(|| Probed { displacement: Point::new(mean[0], mean[1]), stress: [mean[2], mean[3], mean[4], mean[5]] }))
-}
-
 /// Nodes of the triangle at reference coordinates of a macro triangle, and the values of their shape functions there.
 pub fn shapes_at(problem: &Discretisation, triangle: usize, at: Point) -> Vec<(usize, f64)> {
-    match problem.finest().numbering.level.order {
-        Order::P1 => nodes_with_shapes::<3>(problem, triangle, at),
-        Order::P2 => nodes_with_shapes::<6>(problem, triangle, at),
-    }
+    by_order!(problem.finest().numbering.level.order, nodes_with_shapes(problem, triangle, at))
 }
 
 fn nodes_with_shapes<const N: usize>(problem: &Discretisation, triangle: usize, at: Point) -> Vec<(usize, f64)> {
@@ -118,10 +93,7 @@ pub fn stress_around(
     let mut sums = [0.0; 2];
     let added = holding(problem, region, x, session).into_iter().try_for_each(|(triangle, at)| {
         let law = law_of(problem, &laws, triangle);
-        match problem.finest().numbering.level.order {
-            Order::P1 => add_squares::<3>(problem, u, triangle, at, law, &mut sums),
-            Order::P2 => add_squares::<6>(problem, u, triangle, at, law, &mut sums),
-        }
+        by_order!(problem.finest().numbering.level.order, add_squares(problem, u, triangle, at, law, &mut sums))
     });
     agreed(session, added)?;
     session.sum(&mut sums);
@@ -149,10 +121,15 @@ fn add_squares<const N: usize>(
 
 /// This rank's macro triangles of a body, or of a part of one, that hold a point, and its reference coordinates in them.
 pub fn holding(problem: &Discretisation, region: Region, x: Point, session: &Session) -> Vec<(usize, Point)> {
+    holding_nearly(problem, region, x, OUTSIDE[0], session)
+}
+
+/// The same, of a point that may lie outside by the distance `near` (barycentric).
+fn holding_nearly(problem: &Discretisation, region: Region, x: Point, near: f64, session: &Session) -> Vec<(usize, Point)> {
     let mesh = &problem.scene.mesh;
     let own = problem.scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
     let own = own.filter(|&triangle| region.holds(&mesh.triangles[triangle]));
-    own.filter_map(|triangle| Some((triangle, mesh.locate(triangle, x)?))).collect()
+    own.filter_map(|triangle| Some((triangle, mesh.locate_near(triangle, x, near)?))).collect()
 }
 
 /// Nodal forces of the functional `v ↦ s : σ(v)`, mean over the triangles of the lattice that hold a point, where s is the
@@ -172,10 +149,7 @@ pub fn stress_forces(
     let mut forces = Field::<2>::zeros(&problem.scene, problem.finest(), session);
     let added = holding(problem, region, x, session).into_iter().try_for_each(|(triangle, at)| {
         let law = law_of(problem, &laws, triangle);
-        match problem.finest().numbering.level.order {
-            Order::P1 => add_stress_forces::<3>(problem, u, triangle, at, law, &mut forces),
-            Order::P2 => add_stress_forces::<6>(problem, u, triangle, at, law, &mut forces),
-        }
+        by_order!(problem.finest().numbering.level.order, add_stress_forces(problem, u, triangle, at, law, &mut forces))
     });
     agreed(session, added)?;
     forces.sum(session)

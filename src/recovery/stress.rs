@@ -3,7 +3,7 @@
 use crate::body::NodePositions;
 use crate::discretisation::agreed;
 use crate::discretisation::{Discretisation, Field, SystemError};
-use crate::element::{Heat, Order, PlaneLaw, nodal_stresses};
+use crate::element::{Heat, PlaneLaw, by_order, nodal_stresses};
 use crate::mesh::{MacroMesh, lattice};
 use crate::petsc::Session;
 
@@ -55,11 +55,10 @@ fn stress_of_parts(
     let added = own.try_for_each(|&triangle| {
         let part = mesh.triangles[triangle as usize].part;
         let material = (&laws[part as usize], problem.scene.heat(part as usize));
-        match problem.finest().numbering.level.order {
-            _ if !is_in(part) => Ok(()),
-            Order::P1 => add::<3>(problem, u, triangle as usize, material, &mut sums),
-            Order::P2 => add::<6>(problem, u, triangle as usize, material, &mut sums),
+        if !is_in(part) {
+            return Ok(());
         }
+        by_order!(problem.finest().numbering.level.order, add(problem, u, triangle as usize, material, &mut sums))
     });
     agreed(session, added)?;
     Ok(sums.sum(session)?.map(|[xx, yy, xy, zz, area]| [xx, yy, xy, zz].map(|sum| sum / area)))

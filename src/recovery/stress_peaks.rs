@@ -45,7 +45,13 @@ pub struct StressPeak {
 /// # Errors
 /// [`SystemError`] from PETSc or an inverted triangle.
 pub fn largest_stresses(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<f64>, SystemError> {
-    Ok(largest(problem, &nodal_stress(problem, u, session)?, session))
+    let stress = nodal_stress(problem, u, session)?;
+    let mut largest = vec![0.0_f64; problem.scene.mesh.parts.len()];
+    for (_, part, node) in all_nodes(problem, session) {
+        largest[part] = largest[part].max(von_mises(stress.at(part, node)));
+    }
+    session.max(&mut largest);
+    Ok(largest)
 }
 
 /// A node of a macro triangle of this rank: the triangle, and its place in the lattice.
@@ -66,16 +72,6 @@ fn nodes_of<'a>(
         let (part, numbers) = (mesh.triangles[triangle as usize].part as usize, numbering.triangle(mesh, triangle as usize));
         lattice::nodes(numbering.level.intervals).map(move |at| ((triangle as usize, at), part, numbers.node(at.0, at.1)))
     })
-}
-
-/// **Collective**
-fn largest(problem: &Discretisation, stress: &NodalStress, session: &Session) -> Vec<f64> {
-    let mut largest = vec![0.0_f64; problem.scene.mesh.parts.len()];
-    for (_, part, node) in all_nodes(problem, session) {
-        largest[part] = largest[part].max(von_mises(stress.at(part, node)));
-    }
-    session.max(&mut largest);
-    largest
 }
 
 /// The largest von Mises stress of each part, the same on all ranks. `singular` are the places where the stress has no bound.

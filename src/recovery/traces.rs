@@ -4,7 +4,7 @@ use crate::body::positions;
 use crate::contact::{Distance, EdgeOverlap, edge_overlaps, trace};
 use crate::discretisation::agreed;
 use crate::discretisation::{Contact, ContactPressure, Discretisation, Field, SystemError};
-use crate::element::{Heat, Order, PlaneLaw, heated_stress};
+use crate::element::{Heat, PlaneLaw, by_order, heated_stress};
 use crate::geometry::{Point, gauss_points};
 use crate::mesh::BoundaryEdge;
 use crate::petsc::Session;
@@ -12,7 +12,7 @@ use crate::petsc::Session;
 /// Gauss points of each part of Γ_C that results are given at.
 const POINTS: usize = 2;
 
-/// Sums of each body at a point: a count, and the values of [`on_edge`].
+/// Sums of each body at a point: a count, and the values of [`BodyTrace::on_edge`].
 const VALUES: usize = 5;
 
 /// Points whose values are added up over the ranks at once.
@@ -90,20 +90,42 @@ struct BodyTrace<'a> {
 impl BodyTrace<'_> {
     /// Adds its values to the sums of some points, ascending: a count, displacement, stress, distance, and displacement along Γ_C.
     fn add(&self, parameters: &[f64], u: &Field<2>, sums: &mut [[f64; 2 * VALUES]]) -> Result<(), SystemError> {
-        let knots = self.contact.boundary.knots();
-        let tolerance = 1e-12 * (knots[knots.len() - 1] - knots[0]);
+        let [start, end] = self.contact.boundary.ends();
+        let tolerance = 1e-12 * (end - start);
         for overlap in &self.overlaps {
             let [from, to] = overlap.range;
             let first = parameters.partition_point(|&t| t < from - tolerance);
             let last = parameters.partition_point(|&t| t <= to + tolerance);
             for at in first..last {
                 let edge = &self.contact.edges[self.body][overlap.edge];
-                let values = on_edge(self.problem, self.laws, self.contact, self.body, edge, parameters[at], u)?;
+                let values = self.on_edge(edge, parameters[at], u)?;
                 let sums = &mut sums[at][VALUES * self.body..VALUES * (self.body + 1)];
                 sums.iter_mut().zip(std::iter::once(1.0).chain(values)).for_each(|(sum, value)| *sum += value);
             }
         }
         Ok(())
+    }
+
+    /// Normal displacement, `n·σn`, distance, and displacement along Γ_C, of the trace on one edge.
+    fn on_edge(&self, small: &BoundaryEdge, t: f64, u: &Field<2>) -> Result<[f64; VALUES - 1], SystemError> {
+        let Self { problem, contact, .. } = self;
+        let boundary = &contact.boundary;
+        let here = trace(boundary, small, t);
+        let normal = boundary.normal(t);
+        let moved = small.nodes.iter().zip(here.values).fold(Point::zeros(), |sum, (node, value)| {
+            sum + value * u.point(node.number(&problem.scene.mesh, &problem.finest().numbering))
+        });
+        let part = problem.scene.mesh.triangles[small.triangle].part as usize;
+        let material = (&self.laws[part], problem.scene.heat(part));
+        let s = by_order!(problem.finest().numbering.level.order, stress_beside(problem, small, here.fraction, u, material))?;
+        let pressure = s[0] * normal.x * normal.x + s[1] * normal.y * normal.y + 2.0 * s[2] * normal.x * normal.y;
+        let x = boundary.point(t);
+        let distance = match contact.distance(self.body) {
+            // Boundaries that are said to touch: how far they do is seen on the mesh.
+            Distance::Declared => (here.place - x).dot(&normal),
+            measured => measured.at(x, normal, here.place).map_err(SystemError::Case)?,
+        };
+        Ok([moved.dot(&normal), pressure, distance, moved.dot(&boundary.tangent(t))])
     }
 }
 
@@ -151,37 +173,6 @@ fn parameters(contact: &Contact, cuts: &[f64], session: &Session) -> (Vec<f64>, 
     parameters.push(knots[knots.len() - 1]);
     segments.push(contact.boundary.segments() - 1);
     (parameters, segments)
-}
-
-/// Normal displacement, `n·σn`, distance, and displacement along Γ_C, of the trace on one edge of body 1 (0) or 2 (1).
-fn on_edge(
-    problem: &Discretisation,
-    laws: &[PlaneLaw],
-    contact: &Contact,
-    body: usize,
-    small: &BoundaryEdge,
-    t: f64,
-    u: &Field<2>,
-) -> Result<[f64; VALUES - 1], SystemError> {
-    let here = trace(&contact.boundary, small, t);
-    let normal = contact.boundary.normal(t);
-    let moved = small.nodes.iter().zip(here.values).fold(Point::zeros(), |sum, (node, value)| {
-        sum + value * u.point(node.number(&problem.scene.mesh, &problem.finest().numbering))
-    });
-    let part = problem.scene.mesh.triangles[small.triangle].part as usize;
-    let material = (&laws[part], problem.scene.heat(part));
-    let s = match problem.finest().numbering.level.order {
-        Order::P1 => stress_beside::<3>(problem, small, here.fraction, u, material)?,
-        Order::P2 => stress_beside::<6>(problem, small, here.fraction, u, material)?,
-    };
-    let pressure = s[0] * normal.x * normal.x + s[1] * normal.y * normal.y + 2.0 * s[2] * normal.x * normal.y;
-    let x = contact.boundary.point(t);
-    let distance = match contact.distance(body) {
-        // Boundaries that are said to touch: how far they do is seen on the mesh.
-        Distance::Declared => (here.place - x).dot(&normal),
-        measured => measured.at(x, normal, here.place).map_err(SystemError::Case)?,
-    };
-    Ok([moved.dot(&normal), pressure, distance, moved.dot(&contact.boundary.tangent(t))])
 }
 
 /// Stress on a boundary edge, in the triangle beside it.

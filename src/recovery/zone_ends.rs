@@ -56,10 +56,10 @@ impl ContactPressure<'_> {
 /// How far the boundary of each body goes on beyond an end of Γ_C, by the length of Γ_C.
 fn beyond(contact: &Contact, mesh: &MacroMesh, end: usize) -> [f64; 2] {
     let boundary = &contact.boundary;
-    let knots = boundary.knots();
-    let (here, length) = (if end == 0 { knots[0] } else { knots[knots.len() - 1] }, knots[knots.len() - 1] - knots[0]);
+    let [first, last] = boundary.ends();
+    let (here, length) = (if end == 0 { first } else { last }, last - first);
     contact.pair.between.each_ref().map(|name| {
-        let edges = mesh.boundary(name).map(|boundary| boundary.edges.as_slice()).unwrap_or(&[]);
+        let edges = mesh.edges_of(name);
         let vertices = edges.iter().flat_map(|&edge| mesh.edges[edge as usize].vertices);
         let feet = vertices.map(|vertex| boundary.foot(mesh.vertices[vertex as usize]) - here);
         feet.map(|foot| if end == 0 { -foot } else { foot }).fold(f64::NEG_INFINITY, f64::max) / length

@@ -5,7 +5,7 @@ use crate::discretisation::error::SystemError;
 use crate::discretisation::error::agreed;
 use crate::discretisation::field::Field;
 use crate::discretisation::levels::Discretisation;
-use crate::element::{Order, PlaneLaw};
+use crate::element::{PlaneLaw, by_order};
 use crate::geometry::Point;
 use crate::mesh::lattice;
 use crate::petsc::Session;
@@ -60,10 +60,7 @@ fn each_force(
     let n = numbering.level.intervals;
     let law = &laws[mesh.triangles[triangle].part as usize];
     if numbering.level.is_one_triangle() {
-        return match numbering.level.order {
-            Order::P1 => each_force_of_one::<3>(problem, law, u, triangle, take),
-            Order::P2 => each_force_of_one::<6>(problem, law, u, triangle, take),
-        };
+        return by_order!(numbering.level.order, each_force_of_one(problem, law, u, triangle, take));
     }
     let stiffness = MacroStiffness::new(mesh, triangle, numbering.level, law)?;
     let numbers = numbering.triangle(mesh, triangle);
