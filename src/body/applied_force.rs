@@ -5,7 +5,7 @@ use super::Load;
 use super::LoadKind;
 use super::PointLoad;
 use super::node_positions::NodePositions;
-use crate::element::{BadJacobian, Heat, Order, PlaneLaw, edge_load, heat_load, triangle_load};
+use crate::element::{BadJacobian, by_order, edge_load, heat_load, triangle_load};
 use crate::geometry::Point;
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, Partition, lattice};
 
@@ -33,8 +33,7 @@ pub fn applied_forces(
 ) -> Result<(), BadJacobian> {
     let Applied { parts, loads, point_loads } = applied;
     for load in *loads {
-        let edges = load.on.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
-        for &edge in edges.filter(|&&edge| partition.owner(mesh.beside(edge).0) == rank) {
+        for edge in mesh.edges_on(&load.on).filter(|&edge| partition.owner(mesh.beside(edge).0) == rank) {
             for small in BoundaryEdge::all_of(mesh, edge, numbering) {
                 let forces = edge_load(&small.points, |x, normal| load.kind.traction(x, normal) * mesh.plane.width(x));
                 small.nodes.iter().zip(forces).for_each(|(node, force)| add(node.number(mesh, numbering), force));
@@ -74,27 +73,8 @@ pub fn heat_forces(
     add: &mut impl FnMut(usize, Point),
 ) -> Result<(), BadJacobian> {
     let Some(heat) = &part.heat else { return Ok(()) };
-    match numbering.level.order {
-        Order::P1 => small_heat_forces::<3>(mesh, triangle, numbering, &part.material.law(), heat, add),
-        Order::P2 => small_heat_forces::<6>(mesh, triangle, numbering, &part.material.law(), heat, add),
-    }
-}
-
-fn small_heat_forces<const N: usize>(
-    mesh: &MacroMesh,
-    triangle: usize,
-    numbering: &Numbering,
-    law: &PlaneLaw,
-    heat: &Heat,
-    add: &mut impl FnMut(usize, Point),
-) -> Result<(), BadJacobian> {
-    let (numbers, all) = (numbering.triangle(mesh, triangle), NodePositions::new(mesh, triangle, numbering.level));
-    for small in lattice::triangles(numbering.level.intervals, numbering.level.order) {
-        let nodes = small.nodes::<N>();
-        let forces = heat_load::<N>(&all.of(&nodes), law, heat)?;
-        nodes.iter().zip(forces).for_each(|(&(i, j), force)| add(numbers.node(i, j), force));
-    }
-    Ok(())
+    let law = part.material.law();
+    by_order!(numbering.level.order, small_forces(mesh, triangle, numbering, |x| heat_load(x, &law, heat), add))
 }
 
 /// Nodal forces of a force per area of the mesh (per volume in a body of revolution) on one macro triangle, as of
@@ -109,27 +89,25 @@ pub fn body_forces(
     density: impl Fn(&[Point; 6]) -> [Point; 6],
     add: &mut impl FnMut(usize, Point),
 ) -> Result<(), BadJacobian> {
-    match numbering.level.order {
-        Order::P1 => small_forces::<3>(mesh, triangle, numbering, density, add),
-        Order::P2 => small_forces::<6>(mesh, triangle, numbering, density, add),
-    }
-}
-
-fn small_forces<const N: usize>(
-    mesh: &MacroMesh,
-    triangle: usize,
-    numbering: &Numbering,
-    density: impl Fn(&[Point; 6]) -> [Point; 6],
-    add: &mut impl FnMut(usize, Point),
-) -> Result<(), BadJacobian> {
-    let (numbers, all) = (numbering.triangle(mesh, triangle), NodePositions::new(mesh, triangle, numbering.level));
     let whole = |points: &[Point; 6]| {
         let densities = density(points);
         std::array::from_fn(|k| densities[k] * mesh.plane.width(points[k]))
     };
+    by_order!(numbering.level.order, small_forces(mesh, triangle, numbering, |x| triangle_load(x, whole), add))
+}
+
+/// Hands on the forces at the nodes of each small triangle of a macro triangle.
+fn small_forces<const N: usize>(
+    mesh: &MacroMesh,
+    triangle: usize,
+    numbering: &Numbering,
+    forces: impl Fn(&[Point; N]) -> Result<[Point; N], BadJacobian>,
+    add: &mut impl FnMut(usize, Point),
+) -> Result<(), BadJacobian> {
+    let (numbers, all) = (numbering.triangle(mesh, triangle), NodePositions::new(mesh, triangle, numbering.level));
     for small in lattice::triangles(numbering.level.intervals, numbering.level.order) {
         let nodes = small.nodes::<N>();
-        let forces = triangle_load::<N>(&all.of(&nodes), whole)?;
+        let forces = forces(&all.of(&nodes))?;
         nodes.iter().zip(forces).for_each(|(&(i, j), force)| add(numbers.node(i, j), force));
     }
     Ok(())

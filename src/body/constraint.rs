@@ -69,22 +69,14 @@ impl Constraint {
 pub struct SupportError(pub String);
 
 /// What holds a node, by its name; shown as the key of the case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub(super) enum HeldBy<'a> {
+    #[error("support.{0}")]
     Support(&'a str),
+    #[error("{0}")]
     Rigid(&'a str),
-    /// The axis of revolution.
+    #[error("the axis of revolution")]
     Axis,
-}
-
-impl std::fmt::Display for HeldBy<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        match self {
-            Self::Support(name) => write!(f, "support.{name}"),
-            Self::Rigid(key) => f.write_str(key),
-            Self::Axis => f.write_str("the axis of revolution"),
-        }
-    }
 }
 
 /// One direction held at a node.
@@ -207,11 +199,10 @@ fn hold_rigidly<'a>(
 
 /// Holds the nodes on the axis of revolution there: a ring without a radius has none to gain.
 fn hold_on_axis(mesh: &MacroMesh, numbering: &Numbering, holds: &mut AllHolds) -> Result<(), SupportError> {
-    let is_on_axis = |vertex: u32| mesh.vertices[vertex as usize].x == 0.0;
-    let along = (0..mesh.edges.len() as u32).filter(|&edge| mesh.edges[edge as usize].vertices.into_iter().all(is_on_axis));
-    let inner = along.flat_map(|edge| (0..=numbering.level.intervals as u32).map(move |position| EdgeNode { edge, position }));
-    let ends = (0..mesh.vertices.len() as u32).filter(|&vertex| is_on_axis(vertex));
-    let of_ends = ends.map(|vertex| (numbering.vertex(vertex), mesh.vertices[vertex as usize]));
+    let intervals = numbering.level.intervals as u32;
+    let inner = mesh.edges_on_axis().flat_map(|edge| (0..=intervals).map(move |position| EdgeNode { edge, position }));
+    let ends = (0..mesh.vertices.len() as u32).map(|vertex| (numbering.vertex(vertex), mesh.vertices[vertex as usize]));
+    let of_ends = ends.filter(|(_, x)| x.x == 0.0);
     for (node, x) in inner.map(|node| (node.number(mesh, numbering), node.place(mesh, numbering))).chain(of_ends) {
         let (_, known) = holds.entry(node).or_insert((x, Vec::new()));
         add(known, HeldBy::Axis, Point::new(1.0, 0.0), 0.0, x)?;
@@ -232,33 +223,19 @@ pub(super) fn all_holds<'a>(
             let (_, known) = holds.entry(numbering.vertex(vertex)).or_insert((x, Vec::new()));
             collect_axes(support, x, known)?;
         }
-        for name in &support.on {
-            for &edge in mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]) {
-                collect(mesh, numbering, support, edge, &mut holds)?;
+        let positions = 0..=numbering.level.intervals as u32;
+        for node in mesh.edges_on(&support.on).flat_map(|edge| positions.clone().map(move |position| EdgeNode { edge, position }))
+        {
+            let x = node.place(mesh, numbering);
+            let (_, known) = holds.entry(node.number(mesh, numbering)).or_insert((x, Vec::new()));
+            collect_axes(support, x, known)?;
+            if let Some(formula) = &support.normal {
+                let normal = mesh.edge_normal(node.edge, node.fraction(mesh, numbering));
+                add(known, HeldBy::Support(&support.name), normal, formula.value(&[x.x, x.y]), x)?;
             }
         }
     }
     Ok(holds)
-}
-
-fn collect<'a>(
-    mesh: &MacroMesh,
-    numbering: &Numbering,
-    support: &'a Support,
-    edge: u32,
-    holds: &mut AllHolds<'a>,
-) -> Result<(), SupportError> {
-    for position in 0..=numbering.level.intervals {
-        let node = EdgeNode { edge, position: position as u32 };
-        let x = node.place(mesh, numbering);
-        let (_, known) = holds.entry(node.number(mesh, numbering)).or_insert((x, Vec::new()));
-        collect_axes(support, x, known)?;
-        if let Some(formula) = &support.normal {
-            let normal = mesh.edge_normal(edge, node.fraction(mesh, numbering));
-            add(known, HeldBy::Support(&support.name), normal, formula.value(&[x.x, x.y]), x)?;
-        }
-    }
-    Ok(())
 }
 
 /// Adds what a support says of both axes at a point.

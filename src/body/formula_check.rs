@@ -4,7 +4,7 @@ use super::BodyPart;
 use super::Load;
 use super::LoadKind;
 use super::node_positions::NodePositions;
-use crate::element::{BadJacobian, Order, edge_load, triangle_load};
+use crate::element::{BadJacobian, by_order, edge_load, triangle_load};
 use crate::geometry::{Formula, Point};
 use crate::mesh::{BoundaryEdge, Level, MacroMesh, Numbering, lattice};
 use std::cell::RefCell;
@@ -20,8 +20,7 @@ pub fn check_loads(mesh: &MacroMesh, numbering: &Numbering, loads: &[Load]) -> R
             LoadKind::Traction(traction) => ("traction", traction.as_slice()),
         };
         let looked_at = Looked::at(formulas);
-        let edges = load.on.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
-        for small in edges.flat_map(|&edge| BoundaryEdge::all_of(mesh, edge, numbering)) {
+        for small in mesh.edges_on(&load.on).flat_map(|edge| BoundaryEdge::all_of(mesh, edge, numbering)) {
             edge_load(&small.points, |x, _| looked_at.point(x));
             looked_at.all_finite().map_err(|words| format!("load.{}.{key}: {words}", load.name))?;
         }
@@ -47,10 +46,7 @@ pub fn check_body_forces(
             let Some(formulas) = formulas.filter(|formulas| formulas.iter().any(varies)) else { continue };
             let looked_at = Looked::at(formulas);
             // Where a triangle is turned inside out that is what is told.
-            let _ = match level.order {
-                Order::P1 => look::<3>(mesh, triangle, level, &looked_at),
-                Order::P2 => look::<6>(mesh, triangle, level, &looked_at),
-            };
+            let _ = by_order!(level.order, look(mesh, triangle, level, &looked_at));
             looked_at.all_finite().map_err(|words| format!("{}.{key}: {words}", key_of(mesh, number)))?;
         }
     }

@@ -219,7 +219,7 @@ pub fn one_stiffness<const N: usize>(
     if mesh.is_curved(triangle) {
         return stiffness(&positions(mesh, triangle, level, &nodes), law, false);
     }
-    let corners = mesh.triangles[triangle].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+    let corners = mesh.corners(triangle);
     stiffness(&with_midsides(corners), law, true)
 }
 

@@ -20,7 +20,7 @@ const SAME: f64 = 1e-3;
 const AXES: [Point; 2] = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)];
 
 /// A body whose mean motion is held, on one mesh of it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeanHold {
     /// Name of the support in the case file.
     pub name: String,
@@ -86,15 +86,7 @@ impl MeanHold {
 
     /// The support of a body of a mesh, which holds no motion yet.
     pub fn of_body(name: &str, body: &str, mesh: &MacroMesh) -> Self {
-        let hold = Self {
-            name: name.into(),
-            body: body.into(),
-            held: Vec::new(),
-            middle: Point::zeros(),
-            reach: 0.0,
-            anchors: Vec::new(),
-        };
-        hold.on(mesh)
+        Self { name: name.into(), body: body.into(), ..Self::default() }.on(mesh)
     }
 
     /// The same hold of the body on another mesh of it, with the modes as they are.
@@ -156,7 +148,7 @@ impl MeanHold {
 fn middle(mesh: &MacroMesh, triangles: &[usize]) -> Point {
     let (mut area, mut moment) = (0.0, Point::zeros());
     for &triangle in triangles {
-        let [a, b, c] = mesh.triangles[triangle].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+        let [a, b, c] = mesh.corners(triangle);
         let double = cross(b - a, c - a);
         area += double;
         moment += double * (a + b + c) / 3.0;

@@ -75,9 +75,7 @@ impl RigidSet {
                 let own = mesh.triangles.iter().filter(|triangle| mesh.bodies[triangle.body as usize] == *name);
                 own.flat_map(|triangle| triangle.edges).collect()
             }
-            RigidNodes::Boundaries(names) => {
-                names.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| boundary.edges.iter().copied()).collect()
-            }
+            RigidNodes::Boundaries(names) => mesh.edges_on(names).collect(),
         };
         edges.sort_unstable();
         edges.dedup();

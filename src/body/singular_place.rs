@@ -137,10 +137,9 @@ fn by_sides(at: &BoundaryVertex, [before, behind]: [EdgeHold; 2]) -> Option<Unbo
 /// How boundary edges are held, those that are.
 fn edge_holds<'a>(mesh: &MacroMesh, supports: &'a [Support], rigid: &'a [RigidSet]) -> HashMap<u32, EdgeHold<'a>> {
     let mut holds: HashMap<u32, EdgeHold> = HashMap::new();
-    let edges = |name: &String| mesh.boundary(name).map(|boundary| boundary.edges.as_slice()).unwrap_or(&[]);
     for support in supports {
-        for &edge in support.on.iter().flat_map(edges) {
-            let [a, b] = mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+        for edge in mesh.edges_on(&support.on) {
+            let [a, b] = mesh.edge_ends(edge);
             let along = (b - a).normalize();
             let hold = holds.entry(edge).or_default();
             hold.key = Some(("support.", &support.name));
@@ -158,14 +157,10 @@ fn edge_holds<'a>(mesh: &MacroMesh, supports: &'a [Support], rigid: &'a [RigidSe
     for set in rigid {
         let RigidNodes::Boundaries(names) = &set.nodes else { continue };
         let key = Some(("", set.key.as_str()));
-        names.iter().flat_map(edges).for_each(|&edge| _ = holds.insert(edge, EdgeHold { normal: true, tangent: true, key }));
+        mesh.edges_on(names).for_each(|edge| _ = holds.insert(edge, EdgeHold { normal: true, tangent: true, key }));
     }
     if mesh.plane == crate::element::Plane::Revolution {
-        let is_on_axis =
-            |edge: &u32| mesh.edges[*edge as usize].vertices.iter().all(|&vertex| mesh.vertices[vertex as usize].x == 0.0);
-        for edge in (0..mesh.edges.len() as u32).filter(is_on_axis) {
-            holds.entry(edge).or_default().normal = true;
-        }
+        mesh.edges_on_axis().for_each(|edge| holds.entry(edge).or_default().normal = true);
     }
     holds
 }

@@ -47,8 +47,7 @@ impl SpringStiffness {
 impl Springs {
     /// The macro edges that they stand on, each once.
     pub fn edges(&self, mesh: &MacroMesh) -> Vec<u32> {
-        let mut edges: Vec<u32> =
-            self.on.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| boundary.edges.iter().copied()).collect();
+        let mut edges: Vec<u32> = mesh.edges_on(&self.on).collect();
         edges.sort_unstable();
         edges.dedup();
         edges
