@@ -91,6 +91,18 @@ pub fn errors_are_final() {
     FINAL.store(true, Ordering::Relaxed);
 }
 
+/// Drops a wrapper by giving back the one reference of PETSc's that it owns: `given_back!(Vector, raw, VecDestroy);`. **Collective**
+macro_rules! given_back {
+    ($wrapper:ident, $handle:tt, $destroy:ident) => {
+        impl Drop for $wrapper {
+            fn drop(&mut self) {
+                $crate::petsc::error::give_back(|| unsafe { $crate::petsc::ffi::$destroy(&mut self.$handle) });
+            }
+        }
+    };
+}
+pub(super) use given_back;
+
 /// Gives back a reference that PETSc counts, unless all ranks are about to be ended.
 pub(super) fn give_back(destroy: impl FnOnce() -> ffi::PetscErrorCode) {
     if !LEAVING.load(Ordering::Relaxed) {

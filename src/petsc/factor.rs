@@ -52,10 +52,7 @@ impl Factor {
         if failure != ffi::MatFactorError::MAT_FACTOR_NOERROR {
             return Err(Self::singular());
         }
-        let vector = || {
-            let mut raw = ptr::null_mut();
-            petsc!(VecCreateSeq(alone, n, &mut raw)).and_then(|()| Vector::from_raw(session, raw))
-        };
+        let vector = || Vector::alone(session, counts.len());
         Ok(Self { right_hand_side: vector()?, solution: vector()?, factor })
     }
 

@@ -1,6 +1,6 @@
 //! Entries of a distributed vector that a rank needs and others own.
 
-use super::error::{Result, give_back, petsc};
+use super::error::{Result, given_back, petsc};
 use super::ffi;
 use super::index::Index;
 use super::index_set::IndexSet;
@@ -30,9 +30,7 @@ impl Gather {
             &mut from
         ))?;
         let from = IndexSet::from_raw(session, from);
-        let mut arrived = ptr::null_mut();
-        petsc!(VecCreateSeq(alone, length(indices.len()), &mut arrived))?;
-        let arrived = Vector::from_raw(session, arrived)?;
+        let arrived = Vector::alone(session, indices.len())?;
         let mut raw = ptr::null_mut();
         petsc!(VecScatterCreate(layout.raw(), from.raw(), arrived.raw(), ptr::null_mut(), &mut raw))?;
         Ok(Self { raw, arrived })
@@ -53,9 +51,4 @@ impl Gather {
     }
 }
 
-impl Drop for Gather {
-    /// Gives back one PETSc reference. **Collective**
-    fn drop(&mut self) {
-        give_back(|| unsafe { ffi::VecScatterDestroy(&mut self.raw) });
-    }
-}
+given_back!(Gather, raw, VecScatterDestroy);

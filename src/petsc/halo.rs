@@ -3,7 +3,7 @@
 use super::collective::Datum;
 use super::session::Session;
 use mpi::request::multiple_scope;
-use mpi::traits::{Communicator, CommunicatorCollectives, Destination, Source};
+use mpi::traits::{Communicator, Destination, Source};
 use std::ops::Range;
 
 /// Nodes of other ranks that this one needs, and nodes of its own that others need. Vectors have two values for each node.
@@ -20,7 +20,7 @@ pub struct Halo {
 impl Halo {
     /// For the nodes `far` (global numbers, ascending) of other ranks, each of which owns a range. **Collective**
     pub fn new(session: &Session, own: &Range<usize>, far: &[usize]) -> Self {
-        let (size, world) = (session.size(), session.world());
+        let size = session.size();
         if size == 1 {
             return Self { session: session.clone(), from: Vec::new(), to: Vec::new(), sent: Vec::new() };
         }
@@ -29,16 +29,13 @@ impl Halo {
         let owner = |node: &usize| ends.partition_point(|end| end <= node);
         let from: Vec<(i32, usize)> =
             far.chunk_by(|a, b| owner(a) == owner(b)).map(|part| (owner(&part[0]) as i32, part.len())).collect();
-        let (mut wanted, mut asked) = (vec![0u64; size], vec![0u64; size]);
-        from.iter().for_each(|&(rank, count)| wanted[rank as usize] = count as u64);
-        world.all_to_all_into(&wanted[..], &mut asked[..]);
-        let asked: Vec<(i32, usize)> =
-            asked.iter().enumerate().filter(|asked| *asked.1 > 0).map(|(rank, &count)| (rank as i32, count as usize)).collect();
-        let to: Vec<(i32, Range<usize>)> = parts(&asked).collect();
+        let mut wanted = vec![0; size];
+        from.iter().for_each(|&(rank, count)| wanted[rank as usize] = count);
+        let asked = session.counts_to_each(&wanted);
         let numbers: Vec<u64> = far.iter().map(|&node| node as u64).collect();
-        let mut sent = vec![0u64; to.last().map_or(0, |(_, range)| range.end)];
-        let asking: Vec<(i32, Range<usize>)> = parts(&from).collect();
-        exchange(session, (&numbers, &asking), (&mut sent, &to), || ());
+        let sent = session.to_each(&numbers, &wanted, &asked, 1);
+        let asked: Vec<(i32, usize)> = (0..size as i32).zip(asked).filter(|(_, count)| *count > 0).collect();
+        let to = parts(&asked).collect();
         let sent = sent.into_iter().map(|node| (node as usize - own.start) as u32).collect();
         Self { session: session.clone(), from, to, sent }
     }

@@ -1,6 +1,6 @@
 //! Sets of global numbers.
 
-use super::error::{Result, give_back, petsc};
+use super::error::{Result, given_back, petsc};
 use super::ffi;
 use super::index::Index;
 use super::session::Session;
@@ -33,9 +33,4 @@ impl IndexSet {
     }
 }
 
-impl Drop for IndexSet {
-    /// Gives back one PETSc reference. **Collective**
-    fn drop(&mut self) {
-        give_back(|| unsafe { ffi::ISDestroy(&mut self.raw) });
-    }
-}
+given_back!(IndexSet, raw, ISDestroy);

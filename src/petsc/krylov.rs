@@ -1,6 +1,6 @@
 //! Linear solvers.
 
-use super::error::{Error, Result, give_back, petsc, words};
+use super::error::{Error, Result, given_back, petsc, words};
 use super::ffi;
 use super::index::Index;
 use super::matrix::Matrix;
@@ -91,19 +91,6 @@ impl Krylov {
         shared.expect("a solver has a preconditioner")
     }
 
-    /// Solves `A x = b`. **Collective**
-    ///
-    /// # Errors
-    /// [`Error::NotConverged`] if the method gives up: PETSc itself reports that as a success.
-    pub fn solve(&self, b: &Vector, x: &mut Vector) -> Result<KrylovEnding> {
-        let solved = self.solve_allowing(b, x)?;
-        if solved.converged {
-            return Ok(solved);
-        }
-        let KrylovEnding { iterations, residual, reason, .. } = solved;
-        Err(Error::NotConverged { reason, iterations, residual })
-    }
-
     /// Solves `A x = b`; a method that gives up is no error: `converged` tells, `x` holds the last iterate.
     /// **Collective**
     pub fn solve_allowing(&self, b: &Vector, x: &mut Vector) -> Result<KrylovEnding> {
@@ -160,9 +147,4 @@ impl Krylov {
     }
 }
 
-impl Drop for Krylov {
-    /// Gives back one PETSc reference. **Collective**
-    fn drop(&mut self) {
-        give_back(|| unsafe { ffi::KSPDestroy(&mut self.raw) });
-    }
-}
+given_back!(Krylov, raw, KSPDestroy);

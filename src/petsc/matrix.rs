@@ -1,6 +1,6 @@
 //! Distributed matrices.
 
-use super::error::{Result, give_back, petsc};
+use super::error::{Result, given_back, petsc};
 use super::ffi;
 use super::index::Index;
 use super::session::Session;
@@ -78,34 +78,20 @@ impl Matrix {
         petsc!(MatSetValuesBlocked(self.raw, m, rows.as_ptr(), n, columns.as_ptr(), values.as_ptr(), insert))
     }
 
-    /// Adds `values`, row after row, to the entries at `rows` × `columns` (global; negative ones are skipped).
-    /// Holds after [`Matrix::assemble`].
-    ///
-    /// # Panics
-    /// If `values` has another length than the product of the two.
-    #[inline]
-    pub fn add(&mut self, rows: &[Index], columns: &[Index], values: &[f64]) -> Result<()> {
-        self.set_values(rows, columns, values, ffi::InsertMode::ADD_VALUES)
-    }
-
     /// Writes `values`, row after row, in place of the entries at `rows` × `columns` (global; negative ones are skipped). Holds after
-    /// [`Matrix::assemble`]; between two assemblies either add or insert.
+    /// [`Matrix::assemble`].
     ///
     /// # Panics
     /// If `values` has another length than the product of the two.
     #[inline]
     pub fn insert(&mut self, rows: &[Index], columns: &[Index], values: &[f64]) -> Result<()> {
-        self.set_values(rows, columns, values, ffi::InsertMode::INSERT_VALUES)
-    }
-
-    #[inline]
-    fn set_values(&mut self, rows: &[Index], columns: &[Index], values: &[f64], mode: ffi::InsertMode) -> Result<()> {
         assert_eq!(values.len(), rows.len() * columns.len(), "one value for each row and column");
         let (m, n) = (length(rows.len()), length(columns.len()));
-        petsc!(MatSetValues(self.raw, m, rows.as_ptr(), n, columns.as_ptr(), values.as_ptr(), mode))
+        let insert = ffi::InsertMode::INSERT_VALUES;
+        petsc!(MatSetValues(self.raw, m, rows.as_ptr(), n, columns.as_ptr(), values.as_ptr(), insert))
     }
 
-    /// Brings added or inserted values to their ranks and closes the pattern. **Collective**
+    /// Brings inserted values to their ranks and closes the pattern. **Collective**
     pub fn assemble(&mut self) -> Result<()> {
         petsc!(MatAssemblyBegin(self.raw, ffi::MatAssemblyType::MAT_FINAL_ASSEMBLY))?;
         petsc!(MatAssemblyEnd(self.raw, ffi::MatAssemblyType::MAT_FINAL_ASSEMBLY))
@@ -222,9 +208,4 @@ impl Matrix {
     }
 }
 
-impl Drop for Matrix {
-    /// Gives back one PETSc reference. **Collective**
-    fn drop(&mut self) {
-        give_back(|| unsafe { ffi::MatDestroy(&mut self.raw) });
-    }
-}
+given_back!(Matrix, raw, MatDestroy);

@@ -22,7 +22,8 @@ fn is_read_later(name: &str) -> bool {
 
 /// Sets option `name` (`"-ksp_type"`) to `value`, unless the user has set it; an empty value stands for a bare flag.
 pub fn set_default(session: &Session, name: &str, value: &str) -> Result<()> {
-    if set_by_user(session, name) {
+    let is_of_user = !session.defaults().borrow().contains(&name.to_lowercase()) && get(session, name).is_some();
+    if is_of_user {
         return Ok(());
     }
     let (key, text) = (c_string(name), c_string(value));
@@ -41,23 +42,20 @@ pub fn clear(session: &Session, name: &str) -> Result<()> {
 
 /// Value of option `name`, empty for a bare flag; `None` if nobody has set it. Does not count as a use of the option.
 pub fn get(_session: &Session, name: &str) -> Option<String> {
-    let options = all().expect("PETSc lists its options");
-    options.into_iter().find(|(other, _)| other.eq_ignore_ascii_case(name)).map(|(_, value)| value)
+    all().into_iter().find(|(other, _)| other.eq_ignore_ascii_case(name)).map(|(_, value)| value)
 }
 
 /// Whether the user has set some option whose name is like this.
 pub fn any_of_user(session: &Session, is_like: impl Fn(&str) -> bool) -> bool {
-    let options = all().expect("PETSc lists its options");
-    let names = options.into_iter().map(|(name, _)| name.to_lowercase());
+    let names = all().into_iter().map(|(name, _)| name.to_lowercase());
     names.filter(|name| !session.defaults().borrow().contains(name)).any(|name| is_like(&name))
 }
 
 /// Options of the user's, each as `-name value`: from the command line, the environment or a file that PETSc reads.
 pub fn of_user(session: &Session) -> Vec<String> {
-    let options = all().expect("PETSc lists its options");
     let defaults = session.defaults().borrow();
     let is_own = |name: &String| defaults.contains(&name.to_lowercase()) || STARTED_WITH.contains(&name.as_str());
-    let given = options.into_iter().filter(|(name, _)| !is_own(name));
+    let given = all().into_iter().filter(|(name, _)| !is_own(name));
     given.map(|(name, value)| format!("{name} {value}").trim_end().to_owned()).collect()
 }
 
@@ -79,17 +77,12 @@ pub fn unused(session: &Session) -> Result<Vec<String>> {
         .collect())
 }
 
-/// Whether the user has set option `name`, on the command line or in a file that PETSc reads.
-fn set_by_user(session: &Session, name: &str) -> bool {
-    !session.defaults().borrow().contains(&name.to_lowercase()) && get(session, name).is_some()
-}
-
 /// All options that are set, with their values.
-fn all() -> Result<Vec<(String, String)>> {
+fn all() -> Vec<(String, String)> {
     let mut text: *mut c_char = ptr::null_mut();
-    petsc!(PetscOptionsGetAll(ptr::null_mut(), &mut text))?;
+    petsc!(PetscOptionsGetAll(ptr::null_mut(), &mut text)).expect("PETSc lists its options");
     let line = words(text);
-    petsc!(mezha_free(text.cast()))?;
+    petsc!(mezha_free(text.cast())).expect("PETSc takes back what it lists");
     let mut options: Vec<(String, String)> = Vec::new();
     for word in line.split_whitespace() {
         match options.last_mut() {
@@ -99,7 +92,7 @@ fn all() -> Result<Vec<(String, String)>> {
             _ => options.push((word.to_owned(), String::new())),
         }
     }
-    Ok(options)
+    options
 }
 
 fn c_string(text: &str) -> CString {

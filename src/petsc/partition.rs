@@ -1,6 +1,6 @@
 //! Division of a graph into parts.
 
-use super::error::{Result, give_back, petsc};
+use super::error::{Result, given_back, petsc};
 use super::ffi;
 use super::index::Index;
 use super::index_set::IndexSet;
@@ -113,9 +113,4 @@ impl Partitioning {
     }
 }
 
-impl Drop for Partitioning {
-    /// Gives back one PETSc reference. **Collective**
-    fn drop(&mut self) {
-        give_back(|| unsafe { ffi::MatPartitioningDestroy(&mut self.0) });
-    }
-}
+given_back!(Partitioning, 0, MatPartitioningDestroy);

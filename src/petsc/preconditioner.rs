@@ -1,6 +1,6 @@
 //! Preconditioners.
 
-use super::error::{Result, give_back, petsc, words};
+use super::error::{Result, given_back, petsc, words};
 use super::ffi;
 use super::session::Session;
 use std::ffi::CString;
@@ -49,24 +49,24 @@ impl Preconditioner {
 
     /// Whether something failed on this rank when it was prepared or applied last.
     pub fn has_failed(&self) -> Result<bool> {
-        let mut reason = ffi::PCFailedReason::PC_NOERROR;
-        petsc!(PCGetFailedReason(self.raw, &mut reason))?;
-        Ok(reason != ffi::PCFailedReason::PC_NOERROR)
+        Ok(self.failed_by()? != ffi::PCFailedReason::PC_NOERROR)
     }
 
     /// Whether its factorisation could not get the memory that it asked for.
     pub(super) fn is_out_of_memory(&self) -> Result<bool> {
+        Ok(self.failed_by()? == ffi::PCFailedReason::PC_FACTOR_OUTMEMORY)
+    }
+
+    fn failed_by(&self) -> Result<ffi::PCFailedReason> {
         let mut reason = ffi::PCFailedReason::PC_NOERROR;
         petsc!(PCGetFailedReason(self.raw, &mut reason))?;
-        Ok(reason == ffi::PCFailedReason::PC_FACTOR_OUTMEMORY)
+        Ok(reason)
     }
 
     /// What failed when it was prepared or applied last, in words.
     pub(super) fn failure(&self) -> Result<&'static str> {
         use ffi::PCFailedReason as Reason;
-        let mut reason = Reason::PC_NOERROR;
-        petsc!(PCGetFailedReason(self.raw, &mut reason))?;
-        Ok(match reason {
+        Ok(match self.failed_by()? {
             Reason::PC_FACTOR_STRUCT_ZEROPIVOT => "factorisation: a pivot is missing from the pattern",
             Reason::PC_FACTOR_NUMERIC_ZEROPIVOT => "factorisation: zero pivot, the matrix is singular",
             Reason::PC_FACTOR_OUTMEMORY => "factorisation: out of memory",
@@ -78,9 +78,4 @@ impl Preconditioner {
     }
 }
 
-impl Drop for Preconditioner {
-    /// Gives back one PETSc reference. **Collective**
-    fn drop(&mut self) {
-        give_back(|| unsafe { ffi::PCDestroy(&mut self.raw) });
-    }
-}
+given_back!(Preconditioner, raw, PCDestroy);

@@ -58,6 +58,7 @@ struct Context<T: ?Sized> {
 type Square = dyn Operator;
 type Rectangular = dyn Transfer;
 type Multiplied = dyn Product;
+type Acting = dyn Action;
 type Code = ffi::PetscErrorCode;
 
 impl Matrix {
@@ -166,12 +167,8 @@ impl Drop for ReplacedAction {
 
 /// [`ReplacedAction`] as PETSc calls it.
 unsafe extern "C" fn apply_replaced(preconditioner: ffi::PC, x: ffi::Vec, y: ffi::Vec) -> Code {
-    report(|| {
-        let mut context = ptr::null_mut::<c_void>();
-        petsc!(PCGetApplicationContext(preconditioner, ptr::from_mut(&mut context).cast()))?;
-        let context = unsafe { &*context.cast::<Context<dyn Action>>() };
-        context.action.apply(&Lent::new(&context.session, x), &mut Lent::new(&context.session, y))
-    })
+    let find = |context: *mut c_void| petsc!(PCGetApplicationContext(preconditioner, context));
+    act(find, |action: &Acting, session| action.apply(&Lent::new(session, x), &mut Lent::new(session, y)))
 }
 
 /// Drops the action with the preconditioner.
@@ -186,19 +183,20 @@ unsafe extern "C" fn drop_action(preconditioner: ffi::PC) -> Code {
 
 /// [`Action`] as PETSc calls it.
 unsafe extern "C" fn apply(preconditioner: ffi::PC, x: ffi::Vec, y: ffi::Vec) -> Code {
-    report(|| {
-        let mut context = ptr::null_mut::<c_void>();
-        petsc!(PCShellGetContext(preconditioner, ptr::from_mut(&mut context).cast()))?;
-        let context = unsafe { &*context.cast::<Context<dyn Action>>() };
-        context.action.apply(&Lent::new(&context.session, x), &mut Lent::new(&context.session, y))
-    })
+    let find = |context: *mut c_void| petsc!(PCShellGetContext(preconditioner, context));
+    act(find, |action: &Acting, session| action.apply(&Lent::new(session, x), &mut Lent::new(session, y)))
 }
 
-/// Runs an action on the context of a shell.
-fn act<T: ?Sized>(matrix: ffi::Mat, action: impl FnOnce(&T, &Session) -> Result<()>) -> Code {
+/// Runs an action on the context of a shell matrix.
+fn act_by<T: ?Sized>(matrix: ffi::Mat, action: impl FnOnce(&T, &Session) -> Result<()>) -> Code {
+    act(|context| petsc!(MatShellGetContext(matrix, context)), action)
+}
+
+/// Runs an action on the context that `find` writes to a place it is given.
+fn act<T: ?Sized>(find: impl FnOnce(*mut c_void) -> Result<()>, action: impl FnOnce(&T, &Session) -> Result<()>) -> Code {
     report(|| {
         let mut context = ptr::null_mut::<c_void>();
-        petsc!(MatShellGetContext(matrix, ptr::from_mut(&mut context).cast()))?;
+        find(ptr::from_mut(&mut context).cast())?;
         let context = unsafe { &*context.cast::<Context<T>>() };
         action(&context.action, &context.session)
     })
@@ -225,7 +223,7 @@ unsafe extern "C" fn drop_context<T: ?Sized>(given: *mut c_void) -> Code {
 
 /// [`Product`] as PETSc calls it.
 unsafe extern "C" fn product(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
-    act(matrix, |action: &Multiplied, session| action.multiply(&Lent::new(session, x), &mut Lent::new(session, y)))
+    act_by(matrix, |action: &Multiplied, session| action.multiply(&Lent::new(session, x), &mut Lent::new(session, y)))
 }
 
 /// [`Operator`] as PETSc calls it.
@@ -233,14 +231,14 @@ mod operator {
     use super::*;
 
     pub unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
-        act(matrix, |action: &Square, session| {
+        act_by(matrix, |action: &Square, session| {
             action.multiply(&Lent::new(session, x), &mut Lent::new(session, y))?;
             petsc!(mezha_log_work(action.work()))
         })
     }
 
     pub unsafe extern "C" fn norm(matrix: ffi::Mat, kind: ffi::NormType, norm: *mut f64) -> Code {
-        act(matrix, |action: &Square, session| {
+        act_by(matrix, |action: &Square, session| {
             assert_eq!(kind, ffi::NormType::NORM_INFINITY, "the one norm that shells have");
             let mut largest = [action.norm_infinity()?];
             session.max(&mut largest);
@@ -255,14 +253,14 @@ mod transfer {
     use super::*;
 
     pub unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
-        act(matrix, |action: &Rectangular, session| {
+        act_by(matrix, |action: &Rectangular, session| {
             action.multiply(&Lent::new(session, x), &mut Lent::new(session, y))?;
             petsc!(mezha_log_work(action.work()))
         })
     }
 
     pub unsafe extern "C" fn multiply_add(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec, sum: ffi::Vec) -> Code {
-        act(matrix, |action: &Rectangular, session| {
+        act_by(matrix, |action: &Rectangular, session| {
             let mut target = Lent::new(session, sum);
             if y != sum {
                 target.copy_from(&Lent::new(session, y))?;
@@ -273,7 +271,7 @@ mod transfer {
     }
 
     pub unsafe extern "C" fn multiply_transpose(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
-        act(matrix, |action: &Rectangular, session| {
+        act_by(matrix, |action: &Rectangular, session| {
             action.multiply_transpose(&Lent::new(session, x), &mut Lent::new(session, y))?;
             petsc!(mezha_log_work(action.work()))
         })

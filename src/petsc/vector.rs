@@ -1,6 +1,6 @@
 //! Distributed vectors.
 
-use super::error::{Result, give_back, petsc};
+use super::error::{Result, given_back, petsc};
 use super::ffi;
 use super::index::Index;
 use super::session::Session;
@@ -22,6 +22,13 @@ impl Vector {
         petsc!(VecSetSizes(raw, length(local), ffi::mezha_determine))?;
         petsc!(VecSetType(raw, c"standard".as_ptr()))?;
         Ok(vector)
+    }
+
+    /// A vector of `count` entries that this rank alone has.
+    pub(super) fn alone(session: &Session, count: usize) -> Result<Self> {
+        let mut raw = ptr::null_mut();
+        petsc!(VecCreateSeq(mpi::ffi::RSMPI_COMM_SELF, length(count), &mut raw))?;
+        Self::from_raw(session, raw)
     }
 
     /// Takes over one reference to a vector of PETSc's.
@@ -46,12 +53,18 @@ impl Vector {
 
     /// The entries of this rank, to read.
     pub fn values(&self) -> impl Deref<Target = [f64]> + '_ {
-        Values::of(self.raw).expect("a vector lends its array")
+        let (mut array, count) = (ptr::null(), self.local_len());
+        petsc!(VecGetArrayRead(self.raw, &mut array)).expect("a vector lends its array");
+        let values = if count == 0 { &[][..] } else { unsafe { slice::from_raw_parts(array, count) } };
+        LentArray { raw: self.raw, values, give_back: give_back_read }
     }
 
     /// The entries of this rank, to change.
     pub fn values_mut(&mut self) -> impl DerefMut<Target = [f64]> + '_ {
-        ValuesMut::of(self.raw).expect("a vector lends its array")
+        let (mut array, count) = (ptr::null_mut(), self.local_len());
+        petsc!(VecGetArray(self.raw, &mut array)).expect("a vector lends its array");
+        let values = if count == 0 { &mut [][..] } else { unsafe { slice::from_raw_parts_mut(array, count) } };
+        LentArray { raw: self.raw, values, give_back: give_back_written }
     }
 
     /// Sets every entry to `value`. **Collective**
@@ -93,18 +106,6 @@ impl Vector {
         self.range().len()
     }
 
-    /// Number of entries on all ranks.
-    pub fn len(&self) -> usize {
-        let mut count = 0;
-        petsc!(VecGetSize(self.raw, &mut count)).expect("a vector knows its size");
-        count as usize
-    }
-
-    /// Whether there are no entries on any rank.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// Global numbers of the entries of this rank.
     pub fn range(&self) -> Range<usize> {
         let (mut first, mut end) = (0, 0);
@@ -113,12 +114,7 @@ impl Vector {
     }
 }
 
-impl Drop for Vector {
-    /// Gives back one PETSc reference. **Collective**
-    fn drop(&mut self) {
-        give_back(|| unsafe { ffi::VecDestroy(&mut self.raw) });
-    }
-}
+given_back!(Vector, raw, VecDestroy);
 
 /// A vector that PETSc lends for the length of a call.
 pub(super) struct Lent(Vector);
@@ -159,77 +155,36 @@ pub(super) fn length(count: usize) -> Index {
     Index::try_from(count).expect("a length that PETSc can count")
 }
 
-/// Local length of a vector of PETSc's.
-fn local_length(raw: ffi::Vec) -> Result<usize> {
-    let mut count = 0;
-    petsc!(VecGetLocalSize(raw, &mut count))?;
-    Ok(count as usize)
-}
-
-/// The local array of a vector while PETSc lends it for reading.
-pub(super) struct Values<'a> {
+/// The local array of a vector while PETSc lends it.
+struct LentArray<S: Deref<Target = [f64]>> {
     raw: ffi::Vec,
-    values: &'a [f64],
+    values: S,
+    give_back: fn(ffi::Vec, *const f64),
 }
 
-impl Values<'_> {
-    /// Borrows the array of a vector that outlives the guard.
-    pub(super) fn of(raw: ffi::Vec) -> Result<Self> {
-        let count = local_length(raw)?;
-        let mut array = ptr::null();
-        petsc!(VecGetArrayRead(raw, &mut array))?;
-        let values = if count == 0 { &[][..] } else { unsafe { slice::from_raw_parts(array, count) } };
-        Ok(Self { raw, values })
-    }
-}
-
-impl Deref for Values<'_> {
+impl<S: Deref<Target = [f64]>> Deref for LentArray<S> {
     type Target = [f64];
     fn deref(&self) -> &[f64] {
-        self.values
+        &self.values
     }
 }
 
-impl Drop for Values<'_> {
-    fn drop(&mut self) {
-        let mut array = self.values.as_ptr();
-        unsafe { ffi::VecRestoreArrayRead(self.raw, &mut array) };
-    }
-}
-
-/// The local array of a vector while PETSc lends it for writing.
-pub(super) struct ValuesMut<'a> {
-    raw: ffi::Vec,
-    values: &'a mut [f64],
-}
-
-impl ValuesMut<'_> {
-    /// Borrows the array of a vector that outlives the guard and that nobody else uses meanwhile.
-    pub(super) fn of(raw: ffi::Vec) -> Result<Self> {
-        let count = local_length(raw)?;
-        let mut array = ptr::null_mut();
-        petsc!(VecGetArray(raw, &mut array))?;
-        let values = if count == 0 { &mut [][..] } else { unsafe { slice::from_raw_parts_mut(array, count) } };
-        Ok(Self { raw, values })
-    }
-}
-
-impl Deref for ValuesMut<'_> {
-    type Target = [f64];
-    fn deref(&self) -> &[f64] {
-        self.values
-    }
-}
-
-impl DerefMut for ValuesMut<'_> {
+impl<S: DerefMut<Target = [f64]>> DerefMut for LentArray<S> {
     fn deref_mut(&mut self) -> &mut [f64] {
-        self.values
+        &mut self.values
     }
 }
 
-impl Drop for ValuesMut<'_> {
+impl<S: Deref<Target = [f64]>> Drop for LentArray<S> {
     fn drop(&mut self) {
-        let mut array = self.values.as_mut_ptr();
-        unsafe { ffi::VecRestoreArray(self.raw, &mut array) };
+        (self.give_back)(self.raw, self.values.as_ptr());
     }
+}
+
+fn give_back_read(raw: ffi::Vec, mut array: *const f64) {
+    unsafe { ffi::VecRestoreArrayRead(raw, &mut array) };
+}
+
+fn give_back_written(raw: ffi::Vec, array: *const f64) {
+    unsafe { ffi::VecRestoreArray(raw, &mut array.cast_mut()) };
 }

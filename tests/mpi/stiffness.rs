@@ -237,7 +237,7 @@ fn solvers_of_petsc_take_even_triangles(session: &Session) {
     krylov.set_tolerance(1e-8, 2000).expect("a tolerance");
     krylov.set_from_options().expect("options");
     let mut found = x.duplicate().expect("a vector");
-    krylov.solve(&b, &mut found).expect("it converges");
+    assert!(krylov.solve_allowing(&b, &mut found).expect("a solve").converged);
     assert!(apart(product(finest(&stored), &found), &b) < 1e-7);
 }
 

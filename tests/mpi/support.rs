@@ -27,7 +27,7 @@ pub fn sparse(session: &Session, rows: usize, columns: usize, entries: impl Fn(u
     let mut a = Matrix::aij(session, own_rows.len(), own_columns.len(), 1, &counts(true), &counts(false)).unwrap();
     for i in own_rows {
         let (columns, values): (Vec<Index>, Vec<f64>) = entries(i).iter().map(|(j, value)| (*j as Index, *value)).unzip();
-        a.add(&[i as Index], &columns, &values).unwrap();
+        a.insert(&[i as Index], &columns, &values).unwrap();
     }
     a.assemble().unwrap();
     a
