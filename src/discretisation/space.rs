@@ -4,7 +4,7 @@ use crate::body::Constraints;
 use crate::discretisation::error::SystemError;
 use crate::discretisation::scene::Scene;
 use crate::geometry::Point;
-use crate::mesh::{Level, Numbering, Partition};
+use crate::mesh::{Level, Numbering, Partition, lattice};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -37,6 +37,28 @@ impl Space {
     /// Scalar unknowns of this rank.
     pub fn local_unknowns(&self) -> usize {
         2 * self.own.len()
+    }
+
+    /// This rank's unknowns, in the nodes' frames, of a displacement that is told for each of its macro triangles, by the numbers and
+    /// the lattice places of their nodes.
+    pub fn unknowns_of<F: Fn(usize, (usize, usize)) -> Point>(
+        &self,
+        scene: &Scene,
+        rank: usize,
+        of_triangle: impl Fn(usize) -> F,
+    ) -> Vec<f64> {
+        let mut values = vec![0.0; self.local_unknowns()];
+        for triangle in scene.partition.triangles_of(rank).iter().map(|&triangle| triangle as usize) {
+            let (numbers, displacement) = (self.numbering.triangle(&scene.mesh, triangle), of_triangle(triangle));
+            for (i, j) in lattice::nodes(self.numbering.level.intervals) {
+                let node = numbers.node(i, j);
+                if self.own.contains(&node) {
+                    let (at, u) = (2 * (node - self.own.start), self.to_frame(node, displacement(node, (i, j))));
+                    (values[at], values[at + 1]) = (u.x, u.y);
+                }
+            }
+        }
+        values
     }
 
     /// A force on a node, in its frame, with the part on prescribed components left out.

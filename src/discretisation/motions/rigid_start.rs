@@ -5,7 +5,7 @@ use crate::discretisation::motions::held::{Held, supported};
 use crate::discretisation::scene::Scene;
 use crate::element::Order;
 use crate::geometry::Point;
-use crate::mesh::{Level, Numbering, lattice};
+use crate::mesh::{Level, Numbering};
 use nalgebra::{Matrix3, Vector3};
 
 /// Rigid motions flatter than this share of the largest are not told by the supports.
@@ -17,24 +17,14 @@ pub fn rigid_start(problem: &Discretisation, rank: usize) -> Option<Vec<f64>> {
     let (scene, space) = (&problem.scene, problem.finest());
     let motions = motions(scene)?;
     let extents = scene.extents();
-    let mut values = vec![0.0; space.local_unknowns()];
-    for &triangle in scene.partition.triangles_of(rank) {
-        let piece = scene.mesh.triangles[triangle as usize].piece as usize;
-        let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
-        for (i, j) in lattice::nodes(space.numbering.level.intervals) {
-            let node = numbers.node(i, j);
-            if !space.own.contains(&node) {
-                continue;
-            }
-            let x = scene.mesh.node_position(triangle as usize, space.numbering.level, (i, j));
-            let arm = (x - extents[piece].middle) / extents[piece].radius;
-            let [u, v, turn] = motions[piece].into();
-            let moved = space.to_frame(node, Point::new(u - turn * arm.y, v + turn * arm.x));
-            let at = 2 * (node - space.own.start);
-            (values[at], values[at + 1]) = (moved.x, moved.y);
+    Some(space.unknowns_of(scene, rank, |triangle| {
+        let piece = scene.mesh.triangles[triangle].piece as usize;
+        let ([u, v, turn], extent): ([f64; 3], _) = (motions[piece].into(), &extents[piece]);
+        move |_, at| {
+            let arm = (scene.mesh.node_position(triangle, space.numbering.level, at) - extent.middle) / extent.radius;
+            Point::new(u - turn * arm.y, v + turn * arm.x)
         }
-    }
-    Some(values)
+    }))
 }
 
 /// Shift and turn of each piece, the turn by its radius.
