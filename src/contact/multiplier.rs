@@ -145,27 +145,26 @@ impl Multipliers {
     /// Length `H_i` that a multiplier stands for: its segment, or the lumped length of a segment end.
     pub fn length(&self, multiplier: usize) -> f64 {
         match self.space {
-            MultiplierSpace::P1Continuous if self.closed => {
-                let segments = self.lengths.len();
-                0.5 * (self.lengths[(multiplier + segments - 1) % segments] + self.lengths[multiplier])
-            }
-            MultiplierSpace::P1Continuous => {
-                let beside = multiplier.saturating_sub(1)..(multiplier + 1).min(self.lengths.len());
-                beside.map(|k| 0.5 * self.lengths[k]).sum()
-            }
+            MultiplierSpace::P1Continuous => self.beside(multiplier).map(|k| 0.5 * self.lengths[k]).sum(),
             _ => self.lengths[self.segment_of(multiplier)],
         }
     }
 
     /// Harmonic mean of what the segments beside a multiplier have; of one segment, but for those at segment ends.
     pub fn mean_beside(&self, multiplier: usize, of_segments: &[f64]) -> f64 {
-        let segments = of_segments.len();
-        let beside: Vec<usize> = match self.space {
-            MultiplierSpace::P1Continuous if self.closed => vec![(multiplier + segments - 1) % segments, multiplier],
-            MultiplierSpace::P1Continuous => (multiplier.saturating_sub(1)..(multiplier + 1).min(segments)).collect(),
-            _ => vec![self.segment_of(multiplier)],
+        let beside = self.beside(multiplier);
+        beside.clone().count() as f64 / beside.map(|k| 1.0 / of_segments[k]).sum::<f64>()
+    }
+
+    /// The segments beside a multiplier: its own, or those on both sides of a segment end.
+    fn beside(&self, multiplier: usize) -> impl Iterator<Item = usize> + Clone {
+        let segments = self.lengths.len();
+        let both = match self.space {
+            MultiplierSpace::P1Continuous if self.closed => [Some((multiplier + segments - 1) % segments), Some(multiplier)],
+            MultiplierSpace::P1Continuous => [multiplier.checked_sub(1), Some(multiplier).filter(|&k| k < segments)],
+            _ => [Some(self.segment_of(multiplier)), None],
         };
-        beside.len() as f64 / beside.iter().map(|&k| 1.0 / of_segments[k]).sum::<f64>()
+        both.into_iter().flatten()
     }
 
     /// Mean width across the plane where a multiplier counts: one (no unit) in the plane, a circumference (length) in a body of

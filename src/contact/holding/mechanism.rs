@@ -5,6 +5,7 @@
 //! far as the true normals say, those of either body: the normals of a fitted Γ_C tilt a little between the two, and would
 //! hold a disc that rolls.
 
+use crate::body::rigid_displacement;
 use crate::contact::holding::block_factor::{BlockFactor, Blocks, add, least_degrees};
 use crate::geometry::Point;
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen, Vector3};
@@ -109,8 +110,8 @@ pub struct Mechanism {
 impl Mechanism {
     /// Displacement at a point of the piece with this extent.
     pub fn displacement(&self, extent: &Extent, x: Point) -> Point {
-        let (arm, (shift, turn)) = (x - extent.middle, self.moves);
-        shift + turn * Point::new(-arm.y, arm.x)
+        let (shift, turn) = self.moves;
+        rigid_displacement(extent.middle, &[shift.x, shift.y, turn], x)
     }
 }
 

@@ -159,14 +159,20 @@ fn is_solved(status: SolverStatus) -> bool {
     matches!(status, SolverStatus::Solved | SolverStatus::AlmostSolved)
 }
 
-/// A matrix by its entries, each place once or several times.
-fn sparse(rows: usize, columns: usize, mut entries: Vec<(usize, usize, f64)>) -> CscMatrix<f64> {
-    entries.sort_unstable_by_key(|&(i, j, _)| (j, i));
+/// Entries of a matrix or of a vector, each place once, in the order of their keys.
+pub fn added_up<K: Ord>(mut entries: Vec<(usize, usize, f64)>, key: impl Fn(usize, usize) -> K) -> Vec<(usize, usize, f64)> {
+    entries.sort_unstable_by_key(|&(i, j, _)| key(i, j));
     entries.dedup_by(|next, kept| {
         let is_same = (next.0, next.1) == (kept.0, kept.1);
         kept.2 += if is_same { next.2 } else { 0.0 };
         is_same
     });
+    entries
+}
+
+/// A matrix by its entries, each place once or several times.
+fn sparse(rows: usize, columns: usize, entries: Vec<(usize, usize, f64)>) -> CscMatrix<f64> {
+    let entries = added_up(entries, |i, j| (j, i));
     let starts = (0..=columns).map(|column| entries.partition_point(|(_, j, _)| *j < column)).collect();
     let (places, values) = entries.into_iter().map(|(i, _, value)| (i, value)).unzip();
     CscMatrix::new(rows, columns, starts, places, values)

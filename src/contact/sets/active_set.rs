@@ -39,14 +39,9 @@ impl ActiveSet {
     }
 
     /// Begins with another set, as if none had been tried; bilateral multipliers are active whatever it says.
-    pub fn starting_from(self, active: &[bool]) -> Self {
-        let active: Vec<bool> = active.iter().zip(&self.bilateral).map(|(&active, &bilateral)| active || bilateral).collect();
-        Self { tried: vec![active.clone()], active, ..self }
-    }
-
-    /// Begins with another set, which keeps bilateral multipliers active.
     pub fn start_from(&mut self, active: &[bool]) {
-        *self = Self::new(std::mem::take(&mut self.bilateral)).starting_from(active);
+        self.active = active.iter().zip(&self.bilateral).map(|(&active, &bilateral)| active || bilateral).collect();
+        self.forget();
     }
 
     /// Which multipliers are active.
@@ -166,14 +161,16 @@ mod tests {
 
     #[test]
     fn bilateral_multipliers_are_never_released() {
-        let mut set = ActiveSet::new(vec![true, false]).starting_from(&[false, false]);
+        let mut set = ActiveSet::new(vec![true, false]);
+        set.start_from(&[false, false]);
         assert_eq!(set.active(), [true, false]);
         assert_eq!(set.update(|_| -1.0), SetChange::Settled);
     }
 
     #[test]
     fn without_a_force_nothing_changes() {
-        let mut set = ActiveSet::new(vec![false; 2]).starting_from(&[true, false]);
+        let mut set = ActiveSet::new(vec![false; 2]);
+        set.start_from(&[true, false]);
         assert_eq!(set.update(|_| 0.0), SetChange::Settled);
         assert_eq!(set.active(), [true, false]);
     }

@@ -132,7 +132,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         let mut set = ActiveSet::new(bilateral(&problem.contacts));
         let is_carried = start.is_some() && !position.is_hard;
         if let Some(start) = start {
-            set = set.starting_from(&start.active);
+            set.start_from(&start.active);
             let carried = carried_set(system, set.active(), &start.displacement);
             if carried != set.active() {
                 set.start_from(&carried);
