@@ -13,7 +13,7 @@ use crate::discretisation::{
 };
 use crate::element::Order;
 use crate::geometry::Point;
-use crate::mesh::{EdgeNode, Level, MacroMesh, Numbering, lattice};
+use crate::mesh::{EdgeNode, Level, MacroMesh, Numbering};
 use crate::petsc::Session;
 use crate::procedure::boundary::by_place;
 use crate::recovery::largest_stresses;
@@ -33,30 +33,32 @@ const NEAR_AN_END: usize = 8;
 pub struct CoarseSolution {
     displacement: Field<2>,
     numbering: Numbering,
-    contact: ContactSolution,
+    /// What it says of the contacts.
+    pub(super) contact: ContactSolution,
     /// The largest von Mises stress of each part (stress).
     pub largest: Vec<f64>,
-    /// The preconditioner it needed.
-    pub preconditioning: Preconditioning,
-    /// Whether its active set was hard to find, or that of a mesh before.
-    pub is_hard: bool,
 }
 
-/// What a solution says of the contacts of another mesh: where they lie, and what presses.
+/// What a solution says of the contacts of another mesh: where they lie, what presses, and what it takes to solve for that.
 pub(super) struct ContactSolution {
     contacts: Vec<Contact>,
     multipliers: Vec<f64>,
     active: Vec<bool>,
     /// Whether the other mesh is the next refinement of the same macro triangles: ends of contact go on as they have come.
     is_refined: bool,
+    /// The preconditioner it needed.
+    pub preconditioning: Preconditioning,
+    /// Whether its active set was hard to find, or that of a mesh before.
+    pub is_hard: bool,
 }
 
 impl CoarseSolution {
-    /// Takes a solution and its contacts over from the mesh they were found on. **Collective**
+    /// Takes a solution and its contacts over from the mesh they were found on; `needed` are the preconditioner, and whether the
+    /// active set was hard to find. **Collective**
     pub fn new(
         problem: Discretisation,
         solution: Solution,
-        preconditioning: Preconditioning,
+        needed: (Preconditioning, bool),
         session: &Session,
     ) -> Result<Self, SystemError> {
         let displacement = Field::displacement(&problem, &solution.displacement, session)?;
@@ -64,9 +66,7 @@ impl CoarseSolution {
             largest: largest_stresses(&problem, &displacement, session)?,
             displacement,
             numbering: problem.finest().numbering.clone(),
-            contact: ContactSolution::new(problem.contacts, &solution, true),
-            preconditioning,
-            is_hard: false,
+            contact: ContactSolution::new(problem.contacts, &solution, true, needed),
         })
     }
 
@@ -80,11 +80,6 @@ impl CoarseSolution {
         self.contact.start_on(scene, spaces, displacement, session)
     }
 
-    /// `∫λ ds` of each contact.
-    pub fn forces(&self) -> Vec<f64> {
-        (0..self.contact.contacts.len()).map(|at| self.pressure(at).force()).collect()
-    }
-
     /// The pressure on a contact.
     pub fn pressure(&self, contact: usize) -> ContactPressure<'_> {
         ContactPressure::new(&self.contact.contacts[contact], &self.contact.multipliers, &self.contact.active)
@@ -92,34 +87,27 @@ impl CoarseSolution {
 
     /// The same displacement on the next refinement: this rank's unknowns in the nodes' frames.
     pub fn displacement(&self, scene: &Scene, space: &Space, rank: usize) -> Vec<f64> {
-        let mesh = &scene.mesh;
-        let level = space.numbering.level;
-        let mut values = vec![0.0; space.local_unknowns()];
-        for &triangle in scene.partition.triangles_of(rank) {
-            let coarse = self.numbering.triangle(mesh, triangle as usize);
-            let fine = space.numbering.triangle(mesh, triangle as usize);
-            for (i, j) in lattice::nodes(level.intervals) {
-                let node = fine.node(i, j);
-                if !space.own.contains(&node) {
-                    continue;
-                }
-                let mut u = Point::zeros();
-                for ((k, l), weight) in coarse_values(mesh, triangle as usize, level, (i, j)) {
-                    u += weight * self.displacement.point(coarse.node(k, l));
-                }
-                let at = 2 * (node - space.own.start);
-                let u = space.to_frame(node, u);
-                (values[at], values[at + 1]) = (u.x, u.y);
+        let (mesh, level) = (&scene.mesh, space.numbering.level);
+        space.unknowns_of(scene, rank, |triangle| {
+            let coarse = self.numbering.triangle(mesh, triangle);
+            move |_, at| {
+                let add = |u, ((k, l), weight): (_, f64)| u + weight * self.displacement.point(coarse.node(k, l));
+                coarse_values(mesh, triangle, level, at).fold(Point::zeros(), add)
             }
-        }
-        values
+        })
     }
 }
 
 impl ContactSolution {
-    /// The contacts with what was found on them, for a refinement of the mesh or for another one.
-    pub fn new(contacts: Vec<Contact>, solution: &Solution, is_refined: bool) -> Self {
-        Self { contacts, multipliers: solution.multipliers.clone(), active: solution.active.clone(), is_refined }
+    /// The contacts with what was found on them, for a refinement of the mesh or for another one, and what that `needed`.
+    pub fn new(
+        contacts: Vec<Contact>,
+        solution: &Solution,
+        is_refined: bool,
+        (preconditioning, is_hard): (Preconditioning, bool),
+    ) -> Self {
+        let (multipliers, active) = (solution.multipliers.clone(), solution.active.clone());
+        Self { contacts, multipliers, active, is_refined, preconditioning, is_hard }
     }
 
     /// Another mesh, displaced by `displacement` (this rank's unknowns in the nodes' frames), with the contacts where this
@@ -177,8 +165,7 @@ impl ContactSolution {
         if scene.pairs.iter().any(|pair| pair.follows()) {
             for ((known, new), old) in known.iter_mut().zip(&contacts).zip(&self.contacts).filter(|(_, old)| old.has_free_ends())
             {
-                let knots = old.boundary.knots();
-                let ends = [knots[0], knots[knots.len() - 1]];
+                let ends = old.boundary.ends();
                 let foot = |k: usize| match ends[k] == old.limits[k] {
                     // Where a body ends, it does so on every mesh.
                     true => new.limits[k],
@@ -278,7 +265,7 @@ pub(super) fn coarse_values(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::samples::two_blocks;
+    use crate::mesh::{lattice, samples::two_blocks};
 
     #[test]
     fn single_open_multipliers_keep_their_number_from_the_end() {

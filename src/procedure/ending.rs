@@ -1,16 +1,16 @@
 //! How the procedure ends, and why.
 
-use std::fmt::{self, Display, Formatter};
-
 /// Way of the ends of a contact boundary, as a share of its length, beyond which it moves.
 pub const MOVES: f64 = 1e-2;
 
 /// How the procedure ended.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Ending {
     /// Everything stands still within its tolerance.
+    #[error("{0}")]
     Converged(Standing),
     /// It does not, or a body is not held.
+    #[error("{0}")]
     NotConverged(Failure),
 }
 
@@ -38,23 +38,17 @@ impl Ending {
     }
 }
 
-impl Display for Ending {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            Self::Converged(standing) => standing.fmt(f),
-            Self::NotConverged(failure) => failure.fmt(f),
-        }
-    }
-}
-
 /// What stands.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Standing {
     /// The residual is below its tolerance, and no multiplier may be released.
+    #[error("the residual is below its tolerance")]
     Residual,
     /// The active set, and the residual is below its tolerance.
+    #[error("the active set stands and the residual is below its tolerance")]
     ActiveSet,
     /// The active set, but rounding allows no residual as small as asked for.
+    #[error("the residual stands at {residual:.1e}: rounding allows no less, tolerance {tolerance:.0e} is out of reach")]
     Rounding {
         /// The relative residual.
         residual: f64,
@@ -63,6 +57,9 @@ pub enum Standing {
     },
     /// Not the active set, which goes round, but each set of the round that meets the contact conditions as well as they are
     /// asked for; and the residual is below its tolerance.
+    #[error(
+        "the active set goes round at {places}, but this set meets the contact conditions to {violation:.0e} of the largest pressure, and the residual is below its tolerance"
+    )]
     Round {
         /// Where the sets differ, in words.
         places: String,
@@ -70,6 +67,7 @@ pub enum Standing {
         violation: f64,
     },
     /// The contact boundary.
+    #[error("{}; {within}", boundary_stands(*.fits, *.held, *.way))]
     Boundary {
         /// Boundaries that were solved for.
         fits: usize,
@@ -93,41 +91,22 @@ pub struct HeldEnds {
     pub farthest: bool,
 }
 
-impl Display for Standing {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            Self::Residual => write!(f, "the residual is below its tolerance"),
-            Self::ActiveSet => write!(f, "the active set stands and the residual is below its tolerance"),
-            Self::Rounding { residual, tolerance } => write!(
-                f,
-                "the residual stands at {residual:.1e}: rounding allows no less, tolerance {tolerance:.0e} is out of reach"
-            ),
-            Self::Round { places, violation } => write!(
-                f,
-                "the active set goes round at {places}, but this set meets the contact conditions to {violation:.0e} of the largest pressure, and the residual is below its tolerance"
-            ),
-            Self::Boundary { fits, held, way, within } => {
-                match held {
-                    None if way.is_some() => write!(
-                        f,
-                        "the contact boundary stands after {fits} fit{} to what the mesh is exact for: it would move by {:.0e} of its length",
-                        if *fits == 1 { "" } else { "s" },
-                        way.unwrap_or_default()
-                    )?,
-                    None if *fits == 1 => write!(f, "the contact boundary fits what touches")?,
-                    None => write!(f, "the contact boundary stands after {fits} fits, and so does the displacement")?,
-                    Some(HeldEnds { fit, way, farthest }) => {
-                        let last = way.map_or("an unknown part".into(), |way| format!("{way:.0e}"));
-                        let held = if *farthest { "held where they reached farthest" } else { "held" };
-                        write!(
-                            f,
-                            "the ends of the contact boundary still moved by {last} of its length at fit {fit} and are {held}; it stands after {fits}"
-                        )?;
-                    }
-                }
-                write!(f, "; {within}")
-            }
+/// Words for a contact boundary that stands.
+fn boundary_stands(fits: usize, held: Option<HeldEnds>, way: Option<f64>) -> String {
+    match (held, way) {
+        (Some(HeldEnds { fit, way, farthest }), _) => {
+            let last = way.map_or("an unknown part".into(), |way| format!("{way:.0e}"));
+            let held = if farthest { "held where they reached farthest" } else { "held" };
+            format!(
+                "the ends of the contact boundary still moved by {last} of its length at fit {fit} and are {held}; it stands after {fits}"
+            )
         }
+        (None, Some(way)) => format!(
+            "the contact boundary stands after {fits} fit{} to what the mesh is exact for: it would move by {way:.0e} of its length",
+            if fits == 1 { "" } else { "s" }
+        ),
+        (None, None) if fits == 1 => "the contact boundary fits what touches".into(),
+        (None, None) => format!("the contact boundary stands after {fits} fits, and so does the displacement"),
     }
 }
 

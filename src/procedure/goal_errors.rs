@@ -39,8 +39,9 @@ impl Procedure<'_> {
 
     /// What is estimated of one goal. **Collective**
     fn estimated_error(&self, Goal { quantity, tolerance }: &Goal, solved: &Solved) -> Result<Option<f64>, SystemError> {
-        let Solved { problem, estimate, .. } = solved;
-        if let Some(at) = quantity.contact().and_then(|name| contact_called(problem, name)) {
+        let estimate = &solved.estimate;
+        let at = quantity.contact().and_then(|name| contact_called(&solved.problem, name));
+        if let Some(at) = at {
             // What carries less than is asked for of the largest force needs no zone to be resolved.
             let share = self.share_of_largest(solved, at, *tolerance)?;
             if share < *tolerance {
@@ -50,26 +51,19 @@ impl Procedure<'_> {
                 return Ok(None);
             }
         }
-        Ok(match quantity {
+        let of = |errors: &[Option<f64>], at: usize| errors.get(at).copied().flatten();
+        Ok(match (quantity, at) {
             // Where everything is found on the mesh before, rounding is all that the differences tell.
-            Quantity::Energy => estimate.energy.or_else(|| rounded(solved)),
-            Quantity::Force(name) => contact_called(problem, name).and_then(|at| estimate.force.get(at).copied().flatten()),
-            Quantity::Pressure(name) => match contact_called(problem, name) {
-                Some(at) => self.pressure_error(solved, at)?,
-                None => None,
-            },
-            Quantity::Peak(name) => match contact_called(problem, name) {
-                Some(at) if !has_unbounded_peak(solved, at) => estimate.peak.get(at).copied().flatten(),
-                _ => None,
-            },
-            Quantity::Ends(name) => match contact_called(problem, name) {
-                Some(at) if self.presses_throughout(solved, at)? => {
-                    estimate.ends.get(at).copied().flatten().map(|error| error + solved.ending.would_move())
-                }
-                _ => None,
-            },
-            Quantity::Displacement(probe) => self.probe_errors(solved, probe)[0],
-            Quantity::Stress(probe) => self.probe_errors(solved, probe)[1],
+            (Quantity::Energy, _) => estimate.energy.or_else(|| rounded(solved)),
+            (Quantity::Displacement(probe), _) => self.probe_errors(solved, probe)[0],
+            (Quantity::Stress(probe), _) => self.probe_errors(solved, probe)[1],
+            (Quantity::Force(_), Some(at)) => of(&estimate.force, at),
+            (Quantity::Pressure(_), Some(at)) => self.pressure_error(solved, at)?,
+            (Quantity::Peak(_), Some(at)) => of(&estimate.peak, at).filter(|_| !has_unbounded_peak(solved, at)),
+            (Quantity::Ends(_), Some(at)) if self.presses_throughout(solved, at)? => {
+                of(&estimate.ends, at).map(|error| error + solved.ending.would_move())
+            }
+            _ => None,
         })
     }
 

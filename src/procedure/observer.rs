@@ -87,12 +87,3 @@ pub trait Observer {
     /// Times a part of the work until the guard is dropped.
     fn enter(&self, work: Work) -> Option<StageGuard<'_>>;
 }
-
-/// Nobody.
-impl Observer for () {
-    fn observe(&self, _: Event) {}
-
-    fn enter(&self, _: Work) -> Option<StageGuard<'_>> {
-        None
-    }
-}

@@ -9,17 +9,14 @@ use crate::procedure::estimates::Estimate;
 use crate::procedure::estimates::{energy_apart, share_left};
 use crate::procedure::solved::Solved;
 use crate::recovery::shapes_at;
-use crate::system::{Preconditioning, Start};
+use crate::system::Start;
 
 /// A solution on the mesh before, whose macro triangles those of the next mesh are parts of.
 pub(crate) struct Predecessor<'s> {
     problem: &'s Discretisation,
     displacement: Field<2>,
-    contact: ContactSolution,
-    /// The preconditioner it needed.
-    pub preconditioning: Preconditioning,
-    /// Whether its active set was hard to find, or that of a mesh before.
-    pub is_hard: bool,
+    /// What it says of the contacts.
+    pub(super) contact: ContactSolution,
     /// Its last difference from a coarser solution, and what is left of it.
     estimate: &'s Estimate,
     /// Where each macro triangle of the next mesh lies.
@@ -31,9 +28,8 @@ impl<'s> Predecessor<'s> {
     pub fn new(solved: &'s Solved, origins: &'s [Origin], session: &Session) -> Result<Self, SystemError> {
         let Solved { problem, solution, preconditioning, is_hard, estimate, .. } = solved;
         let displacement = Field::displacement(problem, &solution.displacement, session)?;
-        let contact = ContactSolution::new(problem.contacts.clone(), solution, false);
-        let (preconditioning, is_hard) = (*preconditioning, *is_hard);
-        Ok(Self { problem, displacement, contact, preconditioning, is_hard, estimate, origins })
+        let contact = ContactSolution::new(problem.contacts.clone(), solution, false, (*preconditioning, *is_hard));
+        Ok(Self { problem, displacement, contact, estimate, origins })
     }
 
     /// The next mesh with the contacts where this solution says, and where to start on it. **Collective**

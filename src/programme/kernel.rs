@@ -8,6 +8,7 @@ use crate::element::Plane;
 use crate::geometry::Point;
 use crate::mesh::Numbering;
 use nalgebra::{DMatrix, SymmetricEigen};
+use std::collections::BTreeMap;
 
 /// Share of the strongest hold below which a motion is free: rounding of coordinates leaves less, the weakest support of a curve
 /// that bends by a thousandth more.
@@ -38,10 +39,6 @@ pub fn kernels(scene: &Scene, numbering: &Numbering, freedoms: &Freedoms) -> Vec
     };
     let first_of_piece: Vec<Option<usize>> =
         freedoms.block_of_piece.iter().enumerate().map(|(piece, &block)| place(block, piece, 0)).collect();
-    let moved = |piece: usize, k: usize, x: Point| {
-        let Extent { middle, radius } = extents[piece];
-        rigid_displacement(middle, &UNIT_MOTIONS[k], x) / if k == 2 { radius } else { 1.0 }
-    };
     let mut grams: Vec<DMatrix<f64>> = modes.iter().map(|modes| DMatrix::zeros(modes.len(), modes.len())).collect();
     let mut motions: Vec<DMatrix<f64>> =
         modes.iter().zip(&freedoms.sizes).map(|(modes, &size)| DMatrix::zeros(size, modes.len())).collect();
@@ -52,7 +49,7 @@ pub fn kernels(scene: &Scene, numbering: &Numbering, freedoms: &Freedoms) -> Vec
     }
     for (block, own) in freedoms.own_unknowns() {
         let Some(first) = first_of_piece[own.piece] else { continue };
-        let seen = [0, 1, 2].map(|k| own.direction.dot(&moved(own.piece, k, own.place)));
+        let seen = [0, 1, 2].map(|k| own.direction.dot(&unit_displacement(&extents[own.piece], k, own.place)));
         match own.unknown {
             Some(unknown) => (0..3).for_each(|k| motions[block][(unknown, first + k)] = seen[k]),
             None => add_square(&mut grams[block], &[0, 1, 2].map(|k| (first + k, seen[k]))),
@@ -96,7 +93,7 @@ impl Kernel {
     /// The piece that moves most by these free motions, if it is no plate, with its shift and its turn by its radius; and how far.
     pub fn moves_most(&self, scene: &Scene, motion: &[f64]) -> Option<(usize, [f64; 3])> {
         let amounts = &self.shares * nalgebra::DVector::from_row_slice(motion);
-        let mut all: Vec<(usize, [f64; 3])> = Vec::new();
+        let mut all: BTreeMap<usize, [f64; 3]> = BTreeMap::new();
         for (mode, amount) in self.modes.iter().zip(amounts.iter()) {
             let (piece, k) = match *mode {
                 Mode::Piece { piece, k } => (piece, k),
@@ -105,14 +102,7 @@ impl Kernel {
                     None => continue,
                 },
             };
-            match all.iter_mut().find(|(of, _)| *of == piece) {
-                Some((_, moves)) => moves[k] = *amount,
-                None => {
-                    let mut moves = [0.0; 3];
-                    moves[k] = *amount;
-                    all.push((piece, moves));
-                }
-            }
+            all.entry(piece).or_insert([0.0; 3])[k] = *amount;
         }
         let size = |moves: &[f64; 3]| moves.iter().map(|v| v * v).sum::<f64>();
         all.into_iter().max_by(|(_, a), (_, b)| size(a).total_cmp(&size(b)))
@@ -132,6 +122,11 @@ impl Kernel {
         }
         pins
     }
+}
+
+/// Displacement at a point by a motion of a piece: a shift by one, or a turn by its radius.
+fn unit_displacement(Extent { middle, radius }: &Extent, k: usize, x: Point) -> Point {
+    rigid_displacement(*middle, &UNIT_MOTIONS[k], x) / if k == 2 { *radius } else { 1.0 }
 }
 
 fn modes_of_blocks(scene: &Scene, freedoms: &Freedoms, extents: &[Extent]) -> Vec<Vec<Mode>> {
@@ -166,18 +161,17 @@ fn tie_to_pieces(
     let about = scene.rigid[at].about;
     for &piece in pieces {
         let Some(first) = first_of_piece[piece] else { continue };
-        let Extent { middle, radius } = extents[piece];
         for k in 0..3 {
             let mut row: Vec<(usize, f64)> = (0..3)
                 .map(|own| {
-                    let moved = rigid_displacement(middle, &UNIT_MOTIONS[own], about) / if own == 2 { radius } else { 1.0 };
+                    let moved = unit_displacement(&extents[piece], own, about);
                     (first + own, if k < 2 { moved[k] } else { f64::from(u8::from(own == 2)) })
                 })
                 .collect();
             let own = modes.iter().position(|mode| matches!(mode, Mode::Set { set, k: of, .. } if (*set, *of) == (at, k)));
             if let Some(own) = own {
                 let Mode::Set { radius: of_set, .. } = modes[own] else { continue };
-                row.push((own, if k < 2 { -1.0 } else { -radius / of_set }));
+                row.push((own, if k < 2 { -1.0 } else { -extents[piece].radius / of_set }));
             }
             add_square(gram, &row);
         }

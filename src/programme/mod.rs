@@ -11,7 +11,7 @@ mod kernel;
 
 use self::elimination::Elimination;
 use crate::body::{Applied, BodyPart, MeanHold, applied_forces, body_forces, rigid_displacement};
-use crate::contact::{Programme, ProgrammeOutcome, Side, describe_motion};
+use crate::contact::{Programme, ProgrammeOutcome, Side, added_up, describe_motion};
 use crate::discretisation::{Contact, Coupled, Scene, SystemError, bilateral, coupled_here};
 use crate::geometry::{Formula, Point};
 use crate::mesh::{EdgeNode, Numbering};
@@ -23,14 +23,7 @@ const TOGETHER: usize = 64;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Prediction {
     /// The contacts hold the bodies.
-    Held {
-        /// Displacement of each node (length), in global axes.
-        displacement: Vec<Point>,
-        /// Pressures of all multipliers (stress).
-        pressures: Vec<f64>,
-        /// Mean gap over each multiplier (length).
-        gaps: Vec<f64>,
-    },
+    Held(FoundByProgramme),
     /// The loads drive a body along a motion that no contact resists.
     Driven {
         /// The body, its motion, what drives it, what helps.
@@ -40,6 +33,17 @@ pub enum Prediction {
     },
     /// No answer, and why.
     Unknown(String),
+}
+
+/// Displacements and pressures that a programme has found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundByProgramme {
+    /// Displacement of each node (length), in global axes.
+    pub displacement: Vec<Point>,
+    /// Pressures of all multipliers (stress).
+    pub pressures: Vec<f64>,
+    /// Mean gap over each multiplier (length).
+    pub gaps: Vec<f64>,
 }
 
 /// Entries of a row on the unknowns of one block.
@@ -100,7 +104,7 @@ impl<'s> Predictor<'s> {
                 for contact in contacts {
                     contact.range().for_each(|i| gaps[i] /= contact.multipliers.integral(i - contact.first));
                 }
-                Prediction::Held { displacement, pressures: multipliers[..gap.len()].to_vec(), gaps }
+                Prediction::Held(FoundByProgramme { displacement, pressures: multipliers[..gap.len()].to_vec(), gaps })
             }
             ProgrammeOutcome::Driven(motion) => self.driven(&motion)?,
             ProgrammeOutcome::Unsolved(words) => Prediction::Unknown(words),
@@ -143,7 +147,7 @@ impl<'s> Predictor<'s> {
             let [i, j] = jump.rows;
             compliance.extend([(i, i, jump.weight), (j, j, jump.weight), (i.min(j), i.max(j), -jump.weight)]);
         }
-        Programme { compliance: added_up(compliance), penetration, pushes, resistance, driven }
+        Programme { compliance: added_up(compliance, |i, j| (j, i)), penetration, pushes, resistance, driven }
     }
 
     /// Displacements of all nodes under multipliers and rigid motions.
@@ -297,14 +301,8 @@ impl<'s> Predictor<'s> {
 
 impl ProgrammeRow {
     /// Entries by blocks, each unknown once.
-    fn tidied(mut self) -> Self {
-        self.entries.sort_unstable_by_key(|&(block, unknown, _)| (block, unknown));
-        self.entries.dedup_by(|next, kept| {
-            let is_same = (next.0, next.1) == (kept.0, kept.1);
-            kept.2 += if is_same { next.2 } else { 0.0 };
-            is_same
-        });
-        self
+    fn tidied(self) -> Self {
+        Self { entries: added_up(self.entries, |block, unknown| (block, unknown)), ..self }
     }
 }
 
@@ -316,17 +314,6 @@ fn meets_both_sides(coupled: &[Coupled]) -> bool {
 
 fn product(entries: &[(usize, f64)], values: &[f64]) -> f64 {
     entries.iter().map(|&(at, entry)| entry * values[at]).sum()
-}
-
-/// The same entries, each place once.
-fn added_up(mut entries: Vec<(usize, usize, f64)>) -> Vec<(usize, usize, f64)> {
-    entries.sort_unstable_by_key(|&(i, j, _)| (j, i));
-    entries.dedup_by(|next, kept| {
-        let is_same = (next.0, next.1) == (kept.0, kept.1);
-        kept.2 += if is_same { next.2 } else { 0.0 };
-        is_same
-    });
-    entries
 }
 
 #[cfg(test)]
@@ -344,7 +331,9 @@ mod tests {
         half.edges[1].retain(|edge| edge.points.iter().all(|x| x.x < 1.0 + 1e-9));
         let numbering = finest_numbering(&scene).expect("a small mesh");
         let predictor = Predictor::new(&scene, &numbering).expect("good triangles");
-        let Prediction::Held { pressures, gaps, .. } = predictor.predict(&[half]).expect("it can be integrated") else {
+        let Prediction::Held(FoundByProgramme { pressures, gaps, .. }) =
+            predictor.predict(&[half]).expect("it can be integrated")
+        else {
             panic!("nothing drives the blocks");
         };
         assert!(gaps[..4].iter().all(|gap| gap.abs() < 1e-9), "they touch: {gaps:?}");

@@ -37,8 +37,7 @@ pub fn ends_of_a_part(pressure: &ContactPressure) -> Option<[f64; 2]> {
 pub fn free_ends(pressure: &ContactPressure, history: &mut [FoundEnd; 2], least: f64) -> [f64; 2] {
     let ContactPressure { contact, values: lambda, active } = *pressure;
     let boundary = &contact.boundary;
-    let knots = boundary.knots();
-    let now = [knots[0], knots[knots.len() - 1]];
+    let now = boundary.ends();
     let mut next = now;
     let edge = contact.edge_length() / boundary.speed(now[0]);
     if let Some(ends) = ends_by_force(pressure, least) {
@@ -79,8 +78,7 @@ pub fn ends_by_force(pressure: &ContactPressure, least: f64) -> Option<[f64; 2]>
     let touch = known.touch?;
     let force = pressure.force();
     if force.abs() <= least {
-        let knots = boundary.knots();
-        return Some([knots[0], knots[knots.len() - 1]]);
+        return Some(boundary.ends());
     }
     let half = touch.half_width(force, pressure.contact.compliance)?;
     let pressing = pressing_segments(pressure);
@@ -96,8 +94,7 @@ pub fn ends_by_force(pressure: &ContactPressure, least: f64) -> Option<[f64; 2]>
     };
     let sum = |all: [f64; 2], own: [f64; 2]| [all[0] + own[0], all[1] + own[1]];
     let [pressed, moment] = (0..boundary.segments()).map(of_segment).fold([0.0; 2], sum);
-    let knots = boundary.knots();
-    let now = [knots[0], knots[knots.len() - 1]];
+    let now = boundary.ends();
     let segment = boundary.length() / boundary.segments() as f64;
     let middle = moment / pressed;
     let at = |arc: f64| boundary.parameter_at(arc).clamp(limits[0], limits[1]);

@@ -198,8 +198,8 @@ impl Following {
         let (settled, least) = (number >= self.frozen, self.least_force(problem, solution));
         for ((contact, ends), widest) in problem.contacts.iter().zip(&mut self.ends).zip(&mut self.widest) {
             let mut known = contact.known.clone();
-            let knots = contact.boundary.knots();
-            *widest = [widest[0].min(knots[0]), widest[1].max(knots[knots.len() - 1])];
+            let [first, last] = contact.boundary.ends();
+            *widest = [widest[0].min(first), widest[1].max(last)];
             if contact.has_free_ends() && number == HELD && self.last_way > MOST_HELD {
                 // Ends that find no rest, as where contact has several zones, are left to the active set.
                 all.push(Known { ends: Some(*widest), segments: None, ..known });
@@ -207,7 +207,7 @@ impl Following {
             }
             if contact.has_free_ends() && number < HELD {
                 let next = free_ends(&solution.pressure(contact), ends, least);
-                let ratio = (next[1] - next[0]) / (knots[knots.len() - 1] - knots[0]);
+                let ratio = (next[1] - next[0]) / (last - first);
                 known.ends = Some(next);
                 // Segments are kept for a boundary that is nearly what it was: of another length they would be slivers, or coarse.
                 if !settled || !ALIKE.contains(&ratio) {

@@ -1,7 +1,7 @@
 //! How the solution on one mesh differs from that on the mesh before: in the energy norm and in each value that is estimated.
 
 use crate::accuracy::{Accuracy, ProbePoint};
-use crate::discretisation::{Discretisation, Field, Solution, SystemError, local_strain_energy};
+use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, SystemError, local_strain_energy};
 use crate::mesh::Cells;
 use crate::petsc::Session;
 use crate::procedure::coarse_solution::CoarseSolution;
@@ -19,20 +19,27 @@ pub struct Difference {
     pub of_triangles: Vec<f64>,
     /// Where in these triangles; only where an accuracy is asked for.
     pub cells: Vec<Cells>,
-    /// Relative difference of `∫λ ds`, for each contact.
-    pub force: Vec<f64>,
-    /// Relative difference of the largest pressure, recovered from means of λ, for each contact.
-    pub peak: Vec<f64>,
-    /// How far the largest λ is from that, relative, for each contact.
-    pub above: Vec<f64>,
-    /// Largest way of an end of contact by the width of its zone, for each contact.
-    pub ends: Vec<f64>,
-    /// Error of these ends as they lie at ends of segments, by the same width; and whether that is all of it.
-    pub within_segments: Vec<(f64, bool)>,
+    /// On each contact.
+    pub contacts: Vec<ContactDifference>,
     /// Relative differences at each probe that a goal is set for.
     pub probes: Vec<ProbeDifference>,
-    /// The zones of each contact.
-    pub zones: Vec<Vec<ZoneDifference>>,
+}
+
+/// How λ of a contact differs from that on the mesh before.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactDifference {
+    /// Relative difference of `∫λ ds`.
+    pub force: f64,
+    /// Relative difference of the largest pressure, recovered from means of λ.
+    pub peak: f64,
+    /// How far the largest λ is from that, relative.
+    pub above: f64,
+    /// Largest way of an end of contact by the width of its zone.
+    pub ends: f64,
+    /// Error of these ends as they lie at ends of segments, by the same width; and whether that is all of it.
+    pub within_segments: (f64, bool),
+    /// Its zones.
+    pub zones: Vec<ZoneDifference>,
 }
 
 /// Relative differences at a point.
@@ -67,26 +74,30 @@ impl Difference {
         let cells = cells.into_iter().zip(&left_out).map(|(cells, &is_out)| if is_out { Cells::default() } else { cells });
         let mut apart = [of_triangles.iter().sum::<f64>()];
         session.sum(&mut apart);
-        let (mut force, mut ends, mut within_segments, mut zones) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let (mut peak, mut above) = (Vec::new(), Vec::new());
-        for (at, (contact, before)) in problem.contacts.iter().zip(coarse.forces()).enumerate() {
-            let pressure = solution.pressure(contact);
-            let now = pressure.force();
-            force.push(share((now - before).abs(), now.abs()));
-            let [now, before] = [pressure.recovered_peak(), coarse.pressure(at).recovered_peak()];
-            let is_open = pressure.zones().is_empty() && coarse.pressure(at).zones().is_empty();
-            let unknown = if is_open { 0.0 } else { f64::NAN };
-            peak.push(now.zip(before).map_or(unknown, |(now, before)| (before / now - 1.0).abs()));
-            above.push(now.map_or(unknown, |now| (pressure.largest() / now - 1.0).abs()));
-            ends.push(way_of_ends(&pressure, &coarse.pressure(at)));
-            within_segments.push(ends_within_segments(&pressure, &coarse.pressure(at)));
-            let before = |x| coarse.pressure(at).at_foot(x);
-            zones.push(pressure.zones().iter().map(|zone| ZoneDifference::new(contact, pressure.values, zone, before)).collect());
-        }
+        let contacts = problem.contacts.iter().enumerate();
+        let contacts = contacts.map(|(at, contact)| ContactDifference::new(&solution.pressure(contact), &coarse.pressure(at)));
+        let contacts = contacts.collect();
         let of_triangles = of_triangles.into_iter().map(|part| share(part, whole)).collect();
         let cells = cells.map(|part| part.scaled(if whole == 0.0 { 0.0 } else { 1.0 / whole })).collect();
         let energy = if whole.is_nan() { f64::NAN } else { share(apart[0], whole) };
-        Ok(Self { energy, of_triangles, cells, force, peak, above, ends, within_segments, probes, zones })
+        Ok(Self { energy, of_triangles, cells, contacts, probes })
+    }
+}
+
+impl ContactDifference {
+    fn new(now: &ContactPressure, before: &ContactPressure) -> Self {
+        let (zones, zones_before) = (now.zones(), before.zones());
+        let unknown = if zones.is_empty() && zones_before.is_empty() { 0.0 } else { f64::NAN };
+        let [peak, peak_before] = [now, before].map(ContactPressure::recovered_peak);
+        let of_zone = |zone| ZoneDifference::new(now.contact, now.values, zone, |x| before.at_foot(x));
+        Self {
+            force: share((now.force() - before.force()).abs(), now.force().abs()),
+            peak: peak.zip(peak_before).map_or(unknown, |(now, before)| (before / now - 1.0).abs()),
+            above: peak.map_or(unknown, |peak| (now.largest() / peak - 1.0).abs()),
+            ends: way_of_ends(now, before),
+            within_segments: ends_within_segments(now, before),
+            zones: zones.iter().map(of_zone).collect(),
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use crate::accuracy::{Goal, ProbePoint, Quantity};
 use crate::contact::Zone;
 use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, Space, SystemError};
 use crate::geometry::{Point, gauss_points};
-use crate::mesh::{Cells, lattice};
+use crate::mesh::Cells;
 use crate::petsc::Session;
 use crate::procedure::coarse_solution::{CoarseSolution, coarse_values};
 use crate::recovery::{cell_energies, holding, shapes_at, stress_forces};
@@ -57,20 +57,15 @@ impl Duals<'_> {
             gap[contact.range()].copy_from_slice(&weights(at, &solution.pressure(contact)));
             Some(Functional { load: nothing.clone(), gap })
         };
+        let of_load = |load: Vec<f64>| Functional { load, gap: vec![0.0; problem.multiplier_count()] };
         Ok(match quantity {
             Quantity::Energy => None,
             Quantity::Force(name) => of_pressure(name, &|_, pressure| force_weights(pressure)),
             Quantity::Pressure(name) => of_pressure(name, &|at, pressure| self.pressure_weights(at, pressure)),
             Quantity::Peak(name) => of_pressure(name, &|_, pressure| peak_weights(pressure)),
             Quantity::Ends(name) => of_pressure(name, &|_, pressure| end_weights(pressure)),
-            Quantity::Displacement(point) => Some(Functional {
-                load: point_force(problem, point, solution, system)?,
-                gap: vec![0.0; problem.multiplier_count()],
-            }),
-            Quantity::Stress(point) => Some(Functional {
-                load: self.stress_load(problem, point, solution, system)?,
-                gap: vec![0.0; problem.multiplier_count()],
-            }),
+            Quantity::Displacement(point) => Some(of_load(point_force(problem, point, solution, system)?)),
+            Quantity::Stress(point) => Some(of_load(self.stress_load(problem, point, solution, system)?)),
         })
     }
 
@@ -148,8 +143,7 @@ fn peak_weights(pressure: &ContactPressure) -> Vec<f64> {
 /// The force near both ends of each zone, but for those where a body ends.
 fn end_weights(pressure: &ContactPressure) -> Vec<f64> {
     let contact = pressure.contact;
-    let (multipliers, knots) = (&contact.multipliers, contact.boundary.knots());
-    let whole = [knots[0] <= contact.limits[0], knots[knots.len() - 1] >= contact.limits[1]];
+    let (multipliers, whole) = (&contact.multipliers, contact.ends_with_a_body());
     let mut weights = vec![0.0; pressure.values.len()];
     let beside = |zone: &Zone, k: usize| {
         let [first, last] = [k - zone.segments.start, zone.segments.end - 1 - k].map(|away| away < AT_AN_END);
@@ -214,21 +208,12 @@ fn surplus(problem: &Discretisation, unknowns: &[f64], session: &Session) -> Res
     let whole = Field::displacement(problem, unknowns, session)?;
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let level = space.numbering.level;
-    let mut left = vec![0.0; unknowns.len()];
-    for &triangle in problem.scene.partition.triangles_of(session.rank()) {
-        let numbers = space.numbering.triangle(mesh, triangle as usize);
-        for (i, j) in lattice::nodes(level.intervals) {
-            let node = numbers.node(i, j);
-            if !space.own.contains(&node) {
-                continue;
-            }
-            let mut u = whole.point(node);
-            for ((k, l), weight) in coarse_values(mesh, triangle as usize, level, (i, j)) {
-                u -= weight * whole.point(numbers.node(2 * k, 2 * l));
-            }
-            let (at, u) = (2 * (node - space.own.start), space.to_frame(node, u));
-            (left[at], left[at + 1]) = (u.x, u.y);
+    let left = space.unknowns_of(&problem.scene, session.rank(), |triangle| {
+        let (numbers, whole) = (space.numbering.triangle(mesh, triangle), &whole);
+        move |node, at| {
+            let take = |u, ((k, l), weight): (_, f64)| u - weight * whole.point(numbers.node(2 * k, 2 * l));
+            coarse_values(mesh, triangle, level, at).fold(whole.point(node), take)
         }
-    }
+    });
     Field::displacement(problem, &left, session)
 }

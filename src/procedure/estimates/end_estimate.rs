@@ -45,8 +45,7 @@ pub(crate) fn way_of_ends(now: &ContactPressure, before: &ContactPressure) -> f6
 /// the error, and the second value is true.
 pub(crate) fn ends_within_segments(pressure: &ContactPressure, before: &ContactPressure) -> (f64, bool) {
     let contact = pressure.contact;
-    let knots = contact.boundary.knots();
-    let is_of_a_body = [knots[0] <= contact.limits[0], knots[knots.len() - 1] >= contact.limits[1]];
+    let is_of_a_body = contact.ends_with_a_body();
     let (zones, zones_before) = (pressure.zones(), before.zones());
     let off = |z: usize, zone: &Zone, end: usize| {
         if zone.goes_round() {

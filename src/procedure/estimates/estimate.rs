@@ -7,7 +7,7 @@
 //! left. Where active sets or contact boundaries change from mesh to mesh the spaces are not nested, and this is heuristic.
 
 use super::decay::{FORCE_SLOWEST, SHARES, falls, left, value_left};
-use super::difference::{Difference, ProbeDifference};
+use super::difference::{ContactDifference, Difference, ProbeDifference};
 use super::energy_norm::share;
 use super::zone_estimate::{ZoneDifference, ZoneEstimate};
 use crate::contact::Zone;
@@ -101,10 +101,12 @@ impl Estimate {
     ) -> Self {
         let Some((last, earlier)) = differences.split_last() else { return Self::default() };
         let before = earlier.last();
-        let contacts = 0..last.force.len();
-        let zones = |k: usize| -> Vec<[Option<ZoneDifference>; 2]> {
-            let again = |zone: &ZoneDifference| zone.again(&before?.zones[k]).cloned();
-            last.zones[k].iter().map(|zone| [Some(zone.clone()), again(zone)]).collect()
+        // What each contact differs by now, and differed by before.
+        type Both<'d> = (&'d ContactDifference, Option<&'d ContactDifference>);
+        let contacts = last.contacts.iter().enumerate().map(|(k, now)| (now, before.map(|before| &before.contacts[k])));
+        let zones = |(now, then): Both| -> Vec<[Option<ZoneDifference>; 2]> {
+            let again = |zone: &ZoneDifference| zone.again(&then?.zones).cloned();
+            now.zones.iter().map(|zone| [Some(zone.clone()), again(zone)]).collect()
         };
         let of_triangles: Vec<f64> = match before {
             Some(before) => {
@@ -133,23 +135,24 @@ impl Estimate {
         let foreseen = if is_first_guess { Some(last.energy * FORESEEN_BY_ONE.powi(2)) } else { energy };
         // The error of a value is a product of two in the energy norm, and falls as the square of that does.
         let slow = before.map_or(0.0, |before| (last.energy / before.energy).min(FORCE_SLOWEST));
-        let force = |k: usize| {
+        let force = |(now, then): Both| {
             let smooth = FORCE_FALLS[order.degree() - 1];
-            let left = |fall: f64, shares| value_left(before.map(|before| before.force[k]), last.force[k], fall, shares);
-            Some(left(smooth, FORCE_SHARES)?.max(left(smooth.max(slow), FORCE_SLOW_SHARES)?))
+            let left = |fall: f64, shares| value_left(then.map(|then| then.force), now.force, fall, shares);
+            let error = left(smooth, FORCE_SHARES)?.max(left(smooth.max(slow), FORCE_SLOW_SHARES)?);
+            Some(error.max(residual))
         };
-        let peak = |k: usize| {
-            value_left(before.map(|before| before.peak[k]), last.peak[k], PEAK_FALLS, SHARES)
-                .map(|error| (error + last.above[k]).max(residual))
+        let peak = |(now, then): Both| {
+            let left = value_left(then.map(|then| then.peak), now.peak, PEAK_FALLS, SHARES)?;
+            Some((left + now.above).max(residual))
         };
-        let ends = |k: usize| {
-            let (within, is_all) = last.within_segments[k];
+        let ends = |(now, then): Both| {
+            let (within, is_all) = now.within_segments;
             if is_all {
                 return Some(within.max(residual));
             }
             // Ends that stay where they are from mesh to mesh are no better for it than the segments are short.
-            value_left(before.map(|before| before.ends[k]), last.ends[k], ENDS_FALL, SHARES)
-                .map(|error| error.max(within).max(residual))
+            let left = value_left(then.map(|then| then.ends), now.ends, ENDS_FALL, SHARES)?;
+            Some(left.max(within).max(residual))
         };
         let probe = |k: usize| {
             let left = |what: usize, of: &dyn Fn(&ProbeDifference) -> f64| {
@@ -173,7 +176,7 @@ impl Estimate {
             energy_falls: if is_first_guess { vec![ENERGY_FALLS; last.of_triangles.len()] } else { falls.clone() },
             falls,
             shares_left,
-            force: contacts.clone().map(|k| force(k).map(|error| error.max(residual))).collect(),
+            force: contacts.clone().map(force).collect(),
             peak: contacts.clone().map(peak).collect(),
             ends: contacts.clone().map(ends).collect(),
             probes: (0..last.probes.len()).map(probe).collect(),
@@ -216,13 +219,15 @@ mod tests {
             energy: square,
             of_triangles: vec![square],
             cells: Vec::new(),
-            force: vec![square],
-            peak: vec![square],
-            above: vec![square],
-            ends: vec![square],
-            within_segments: vec![(0.01, false)],
+            contacts: vec![ContactDifference {
+                force: square,
+                peak: square,
+                above: square,
+                ends: square,
+                within_segments: (0.01, false),
+                zones: Vec::new(),
+            }],
             probes: Vec::new(),
-            zones: vec![Vec::new()],
         }
     }
 

@@ -14,13 +14,13 @@ use crate::discretisation::{
     not_held_if_closed, spaces,
 };
 use crate::geometry::Point;
-use crate::mesh::{EdgeNode, Level, Numbering, Partition, lattice};
+use crate::mesh::{EdgeNode, Level, Numbering, Partition};
 use crate::procedure::one_mesh::wide_contact::{
-    Fineness, FoundByProgramme, WideContact, as_drawn, drawn_contacts, largest_force, narrowed, wide_contacts, with_touch,
+    Fineness, asked, drawn_contacts, largest_force, narrowed, tips, wide_contacts, with_touch,
 };
 use crate::procedure::sequence::LoadedPlace;
 use crate::procedure::settings::Procedure;
-use crate::programme::{Prediction, Predictor};
+use crate::programme::{FoundByProgramme, Prediction, Predictor};
 use crate::system::Start;
 use std::rc::Rc;
 
@@ -32,10 +32,9 @@ const TOUCHING: f64 = 1e-9;
 
 /// What the programme says of a mesh of which nothing else is known.
 pub(crate) enum Begun {
-    /// The contacts as they will lie, and where to start.
-    Held(Box<Discretisation>, Start),
-    /// No solution to begin with: a first set at most, or contacts as they are drawn, where the programme has no answer or is dear.
-    Unknown(Box<Discretisation>),
+    /// The contacts as they will lie, and where to start; without a solution to begin with a first set at most, or contacts as they are
+    /// drawn, where the programme has no answer or is dear.
+    Ready(Box<Discretisation>, Option<Start>),
     /// A body that nothing holds, or that the loads drive off all its contacts, in words.
     Free(Box<Discretisation>, String),
 }
@@ -57,39 +56,36 @@ impl Procedure<'_> {
         let whole = on_one_rank(&scene);
         let numbering = Numbering::new(spaces[spaces.len() - 1].numbering.level, &whole.partition);
         let wide = wide_contacts(&whole, &numbering, Fineness::Graded)?;
-        let drawn = drawn_contacts(&wide);
-        let free = not_held_if_closed(&whole, &numbering, &drawn);
-        if let Some(words) = self.session.agree(free).map_err(SystemError::Case)? {
-            return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
+        let free = |scene: Scene, words: String| Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
+        let unknown = |scene: Scene| Ok(Begun::Ready(Box::new(Discretisation::new(scene, self.session)?), None));
+        let not_held = not_held_if_closed(&whole, &numbering, &drawn_contacts(&wide));
+        if let Some(words) = self.session.agree(not_held).map_err(SystemError::Case)? {
+            return free(scene, words);
         }
         let predictor = if self.session.rank() == 0 { Predictor::new(&whole, &numbering).map(Some) } else { Ok(None) };
         let predictor = self.session.agree(predictor).map_err(SystemError::Case)?;
-        let (wide, mut found) = match self.held(predictor.as_ref(), &whole, &numbering, wide)? {
-            Ok(held) => held,
-            Err(Prediction::Driven { words, .. }) => {
-                return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
-            }
-            Err(_) => return Ok(Begun::Unknown(Box::new(Discretisation::new(scene, self.session)?))),
+        let predict = |contacts: &[Contact]| self.shared(predictor.as_ref(), contacts, numbering.node_count());
+        let (wide, found) = match asked(&whole, &numbering, wide, predict)? {
+            (wide, Prediction::Held(found)) => (wide, found),
+            (_, Prediction::Driven { words, .. }) => return free(scene, words),
+            (_, Prediction::Unknown(_)) => return unknown(scene),
         };
-        let drawn = drawn_contacts(&wide);
-        let pressing = active(&drawn, &found);
+        let pressing = active(&drawn_contacts(&wide), &found);
         let least = share_of_nothing(self.accuracy) * largest_force(&wide, &found.pressures);
-        if let Some(drawn) = as_drawn(&wide, &found.pressures, least)
-            && let Some(words) = self.tips(predictor.as_ref(), &whole, &numbering, &drawn)?
-        {
-            return Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
+        if let Some(words) = tips(&whole, &numbering, &wide, (&found.pressures, least), predict)? {
+            return free(scene, words);
         }
         let known: Vec<Known> = wide.iter().map(|wide| narrowed(wide, &pressing, &found, least)).collect();
         let displacement = |node: EdgeNode| found.displacement[node.number(&whole.mesh, &numbering)];
         let contacts = Contact::all_again(&whole, &numbering, 0, &known, &displacement)?;
-        match self.shared(predictor.as_ref(), &contacts, numbering.node_count())? {
-            Ok(again) => found = again,
-            Err(_) => return Ok(Begun::Unknown(Box::new(Discretisation::new(scene, self.session)?))),
-        }
+        let Prediction::Held(found) = predict(&contacts)? else { return unknown(scene) };
         drop(predictor);
         let space = &spaces[spaces.len() - 1];
         let start = Start {
-            displacement: own_unknowns(&scene, space, &numbering, &found.displacement, self.session.rank()),
+            displacement: space.unknowns_of(&scene, self.session.rank(), |triangle| {
+                let (there, displacement) = (numbering.triangle(&scene.mesh, triangle), &found.displacement);
+                move |_, (i, j)| displacement[there.node(i, j)]
+            }),
             active: active(&contacts, &found),
             pressures: found.pressures,
         };
@@ -99,9 +95,9 @@ impl Procedure<'_> {
         let mut problem = Discretisation::with(scene, spaces, contacts, motion, self.session)?;
         if !is_assembly(&problem.scene) {
             problem.first_set = Some(start.active);
-            return Ok(Begun::Unknown(Box::new(problem)));
+            return Ok(Begun::Ready(Box::new(problem), None));
         }
-        Ok(Begun::Held(Box::new(problem), start))
+        Ok(Begun::Ready(Box::new(problem), Some(start)))
     }
 
     /// Begins a mesh with contacts as they are `drawn`, which their forces place later on where sides touch at a point. **Collective**
@@ -114,7 +110,7 @@ impl Procedure<'_> {
         let problem = Box::new(problem);
         Ok(match free {
             Some(words) => Begun::Free(problem, words),
-            None => Begun::Unknown(problem),
+            None => Begun::Ready(problem, None),
         })
     }
 
@@ -134,53 +130,12 @@ impl Procedure<'_> {
         }
         let predictor = if self.session.rank() == 0 { Predictor::new(&whole, &numbering).map(Some) } else { Ok(None) };
         let predictor = self.session.agree(predictor).map_err(SystemError::Case)?;
-        let found = self.shared(predictor.as_ref(), &drawn, numbering.node_count())?.ok();
-        let places =
-            |found: FoundByProgramme| wide.iter().enumerate().map(|(at, wide)| wide.loaded(at, &found.pressures)).collect();
-        Ok(found.map(places))
-    }
-
-    /// What the programme says of these contacts, with them. A body that they let go is asked for again on fine segments: one long
-    /// segment pushes along its mean normal alone, and a roller that climbs to the end of its seat needs that of the end. **Collective**
-    fn held(
-        &self,
-        predictor: Option<&Predictor>,
-        whole: &Scene,
-        numbering: &Numbering,
-        wide: Vec<WideContact>,
-    ) -> Result<Result<(Vec<WideContact>, FoundByProgramme), Prediction>, SystemError> {
-        match self.shared(predictor, &drawn_contacts(&wide), numbering.node_count())? {
-            Err(Prediction::Driven { .. }) => {}
-            other => return Ok(other.map(|found| (wide, found))),
-        }
-        let fine = wide_contacts(whole, numbering, Fineness::Fine)?;
-        let found = self.shared(predictor, &drawn_contacts(&fine), numbering.node_count())?;
-        Ok(found.map(|found| (fine, found)))
-    }
-
-    /// Words for a body that has to turn before contacts which lie there hold it; nothing if none has. **Collective**
-    fn tips(
-        &self,
-        predictor: Option<&Predictor>,
-        whole: &Scene,
-        numbering: &Numbering,
-        drawn: &[Known],
-    ) -> Result<Option<String>, SystemError> {
-        // Where a contact cannot lie, nothing is said.
-        let Ok(contacts) = Contact::all_again(whole, numbering, 0, drawn, &|_: EdgeNode| Point::zeros()) else { return Ok(None) };
-        Ok(match self.shared(predictor, &contacts, numbering.node_count())? {
-            Err(Prediction::Driven { words, turns: true }) => Some(words),
-            _ => None,
-        })
+        let Prediction::Held(found) = self.shared(predictor.as_ref(), &drawn, numbering.node_count())? else { return Ok(None) };
+        Ok(Some(wide.iter().enumerate().map(|(at, wide)| wide.loaded(at, &found.pressures)).collect()))
     }
 
     /// What the programme of rank 0 says, on every rank. **Collective**
-    fn shared(
-        &self,
-        predictor: Option<&Predictor>,
-        contacts: &[Contact],
-        nodes: usize,
-    ) -> Result<Result<FoundByProgramme, Prediction>, SystemError> {
+    fn shared(&self, predictor: Option<&Predictor>, contacts: &[Contact], nodes: usize) -> Result<Prediction, SystemError> {
         let own = predictor.map(|predictor| predictor.predict(contacts)).transpose();
         let own = self.session.agree(own).map_err(SystemError::Case)?;
         let is_held = self.session.any(matches!(own, Some(Prediction::Held { .. })));
@@ -193,11 +148,11 @@ impl Procedure<'_> {
             };
             let words = self.session.share(words).map_err(SystemError::Case)?;
             let words = String::from_utf8_lossy(&words).into_owned();
-            return Ok(Err(if is_driven { Prediction::Driven { words, turns } } else { Prediction::Unknown(words) }));
+            return Ok(if is_driven { Prediction::Driven { words, turns } } else { Prediction::Unknown(words) });
         }
         let count = contacts.last().map_or(0, |contact| contact.range().end);
         let mut all = vec![0.0; 2 * nodes + 2 * count];
-        if let Some(Prediction::Held { displacement, pressures, gaps }) = own {
+        if let Some(Prediction::Held(FoundByProgramme { displacement, pressures, gaps })) = own {
             let values = displacement.iter().flat_map(|u| [u.x, u.y]).chain(pressures).chain(gaps);
             all.iter_mut().zip(values).for_each(|(to, value)| *to = value);
         }
@@ -205,7 +160,7 @@ impl Procedure<'_> {
         let (moved, multipliers) = all.split_at(2 * nodes);
         let displacement = moved.chunks_exact(2).map(|u| Point::new(u[0], u[1])).collect();
         let (pressures, gaps) = multipliers.split_at(count);
-        Ok(Ok(FoundByProgramme { displacement, pressures: pressures.to_vec(), gaps: gaps.to_vec() }))
+        Ok(Prediction::Held(FoundByProgramme { displacement, pressures: pressures.to_vec(), gaps: gaps.to_vec() }))
     }
 }
 
@@ -241,21 +196,4 @@ fn active(contacts: &[Contact], found: &FoundByProgramme) -> Vec<bool> {
         both[i] || worth >= found.gaps[i] || found.gaps[i] <= TOUCHING * contact.boundary.length()
     };
     contacts.iter().flat_map(|contact| contact.range().map(move |i| (contact, i))).map(|(c, i)| presses(c, i)).collect()
-}
-
-/// This rank's displacements in the nodes' frames, from those of all nodes on one rank.
-fn own_unknowns(scene: &Scene, space: &Space, whole: &Numbering, displacement: &[Point], rank: usize) -> Vec<f64> {
-    let mut values = vec![0.0; space.local_unknowns()];
-    for &triangle in scene.partition.triangles_of(rank) {
-        let [here, there] = [&space.numbering, whole].map(|numbering| numbering.triangle(&scene.mesh, triangle as usize));
-        for (i, j) in lattice::nodes(space.numbering.level.intervals) {
-            let node = here.node(i, j);
-            if space.own.contains(&node) {
-                let u = space.to_frame(node, displacement[there.node(i, j)]);
-                let at = 2 * (node - space.own.start);
-                (values[at], values[at + 1]) = (u.x, u.y);
-            }
-        }
-    }
-    values
 }

@@ -2,11 +2,12 @@
 
 use crate::accuracy::{Accuracy, share_of_nothing};
 use crate::discretisation::{Contact, Scene, SystemError, finest_numbering};
-use crate::geometry::Point;
-use crate::mesh::{EdgeNode, Numbering};
+use crate::mesh::Numbering;
 use crate::procedure::one_mesh::begun::{MOST_WORK, work_of_programme};
 use crate::procedure::one_mesh::meshes::COARSER;
-use crate::procedure::one_mesh::wide_contact::{Fineness, WideContact, as_drawn, drawn_contacts, largest_force, wide_contacts};
+use crate::procedure::one_mesh::wide_contact::{
+    Fineness, WideContact, asked, drawn_contacts, largest_force, tips, wide_contacts,
+};
 use crate::procedure::settings::Procedure;
 use crate::programme::{Prediction, Predictor};
 
@@ -35,26 +36,17 @@ impl Procedure<'_> {
 fn said_by_programme(
     scene: &Scene,
     numbering: &Numbering,
-    mut wide: Vec<WideContact>,
+    wide: Vec<WideContact>,
     accuracy: Option<&Accuracy>,
 ) -> Result<Option<String>, SystemError> {
     let predictor = Predictor::new(scene, numbering)?;
-    let mut answer = predictor.predict(&drawn_contacts(&wide))?;
-    if matches!(answer, Prediction::Driven { .. }) {
-        // As a run does.
-        wide = wide_contacts(scene, numbering, Fineness::Fine)?;
-        answer = predictor.predict(&drawn_contacts(&wide))?;
+    let predict = |contacts: &[Contact]| predictor.predict(contacts);
+    match asked(scene, numbering, wide, predict)? {
+        (wide, Prediction::Held(found)) => {
+            let least = share_of_nothing(accuracy) * largest_force(&wide, &found.pressures);
+            tips(scene, numbering, &wide, (&found.pressures, least), predict)
+        }
+        (_, Prediction::Driven { words, .. }) => Ok(Some(words)),
+        (_, Prediction::Unknown(_)) => Ok(None),
     }
-    let pressures = match answer {
-        Prediction::Held { pressures, .. } => pressures,
-        Prediction::Driven { words, .. } => return Ok(Some(words)),
-        Prediction::Unknown(_) => return Ok(None),
-    };
-    let least = share_of_nothing(accuracy) * largest_force(&wide, &pressures);
-    let Some(known) = as_drawn(&wide, &pressures, least) else { return Ok(None) };
-    let contacts = Contact::all_again(scene, numbering, 0, &known, &|_: EdgeNode| Point::zeros())?;
-    Ok(match predictor.predict(&contacts)? {
-        Prediction::Driven { words, turns: true } => Some(words),
-        _ => None,
-    })
 }

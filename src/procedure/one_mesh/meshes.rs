@@ -37,15 +37,11 @@ struct Coarser<'p> {
 }
 
 impl Coarser<'_> {
-    /// What was needed on the mesh `before`, or on the adapted one before.
-    fn preconditioning(&self, before: Option<&CoarseSolution>) -> Preconditioning {
-        let needed = before.map(|before| before.preconditioning).or(self.predecessor.map(|before| before.preconditioning));
-        needed.unwrap_or(Preconditioning::Sweep)
-    }
-
-    /// Whether the active set was hard to find on the mesh `before`, or on the adapted one before.
-    fn is_hard(&self, before: Option<&CoarseSolution>) -> bool {
-        before.map_or_else(|| self.predecessor.is_some_and(|before| before.is_hard), |before| before.is_hard)
+    /// The preconditioner that was needed on the mesh `before`, or on the adapted one before, and whether the active set was hard to
+    /// find there.
+    fn needed(&self, before: Option<&CoarseSolution>) -> (Preconditioning, bool) {
+        let before = before.map(|before| &before.contact).or(self.predecessor.map(|before| &before.contact));
+        before.map_or((Preconditioning::Sweep, false), |before| (before.preconditioning, before.is_hard))
     }
 }
 
@@ -93,14 +89,12 @@ impl Procedure<'_> {
             }
         }
         take_up(scene.refine);
-        let (problem, start) = match self.refine(scene, &coarser)? {
-            Begun::Held(problem, start) => (*problem, Some(start)),
-            Begun::Unknown(problem) => (*problem, None),
+        match self.begun_from(scene, coarser.found.as_ref(), coarser.predecessor)? {
+            Begun::Ready(problem, start) => self.solve_last(*problem, start, first, coarser),
             Begun::Free(problem, words) => {
-                return Ok(Solved::nothing(*problem, Ending::NotConverged(Failure::NotHeld(words)), coarser.solves));
+                Ok(Solved::nothing(*problem, Ending::NotConverged(Failure::NotHeld(words)), coarser.solves))
             }
-        };
-        self.solve_last(problem, start, first, coarser)
+        }
     }
 
     /// Looks at a scene: one that is not sound is refused before anything is solved.
@@ -124,20 +118,13 @@ impl Procedure<'_> {
     /// Solves a coarser mesh, if it holds the bodies, and keeps what it tells. **Collective**
     fn coarse_mesh(&self, scene: Scene, first: &mut First, coarser: &mut Coarser) -> Result<(), SystemError> {
         let (refine, before) = (scene.refine, coarser.found.take());
-        let begun = {
-            let _stage = self.observer.enter(Work::Contact);
-            self.begun_from(scene, before.as_ref(), coarser.predecessor)?
-        };
-        let (mut problem, start) = match begun {
-            Begun::Held(problem, start) => (*problem, Some(start)),
-            Begun::Unknown(problem) => (*problem, None),
-            // The finest mesh, which begins in the same way, says it.
-            Begun::Free(..) => return Ok(()),
+        // Of a body that is free the finest mesh, which begins in the same way, says it.
+        let Begun::Ready(mut problem, start) = self.begun_from(scene, before.as_ref(), coarser.predecessor)? else {
+            return Ok(());
         };
         self.say(first);
-        let is_hard = coarser.is_hard(before.as_ref());
-        let least = Preconditioning::of(refine + 1, &problem.scene.mesh.ratios);
-        let preconditioning = coarser.preconditioning(before.as_ref()).max(least);
+        let (needed, is_hard) = coarser.needed(before.as_ref());
+        let preconditioning = needed.max(Preconditioning::of(refine + 1, &problem.scene.mesh.ratios));
         let tolerance = Tolerance::Residual(self.tolerance.residual().max(if self.accuracy.is_some() {
             COARSE_FOR_ACCURACY
         } else if problem.follows() {
@@ -157,17 +144,10 @@ impl Procedure<'_> {
             if let Some(before) = &before {
                 coarser.differences.push(Difference::new(&problem, &found.solution, before, self.accuracy, self.session)?);
             }
-            let mut coarse = CoarseSolution::new(problem, found.solution, found.preconditioning, self.session)?;
-            coarse.is_hard = is_hard || found.ascended;
-            coarser.found = Some(coarse);
+            let needed = (found.preconditioning, is_hard || found.ascended);
+            coarser.found = Some(CoarseSolution::new(*problem, found.solution, needed, self.session)?);
         }
         Ok(())
-    }
-
-    /// Goes to the mesh of the case. **Collective**
-    fn refine(&self, scene: Scene, coarser: &Coarser) -> Result<Begun, SystemError> {
-        let _stage = self.observer.enter(Work::Contact);
-        self.begun_from(scene, coarser.found.as_ref(), coarser.predecessor)
     }
 
     /// A mesh with what is known of it: from the coarser one, from the adapted one before, or else from the programme. **Collective**
@@ -177,12 +157,13 @@ impl Procedure<'_> {
         coarse: Option<&CoarseSolution>,
         predecessor: Option<&Predecessor>,
     ) -> Result<Begun, SystemError> {
+        let _stage = self.observer.enter(Work::Contact);
         let known = match coarse {
             Some(coarse) => Some(coarse.refined(scene.clone(), self.session)?),
             None => self.begun_by_predecessor(&scene, predecessor)?,
         };
         match known {
-            Some((problem, start)) => Ok(Begun::Held(Box::new(problem), start)),
+            Some((problem, start)) => Ok(Begun::Ready(Box::new(problem), Some(start))),
             None => self.begun(scene),
         }
     }
@@ -210,8 +191,8 @@ impl Procedure<'_> {
         coarser: Coarser,
     ) -> Result<Solved, SystemError> {
         self.say(&mut first);
-        let preconditioning = coarser.preconditioning(coarser.found.as_ref()).max(first.preconditioning);
-        let is_hard = coarser.is_hard(coarser.found.as_ref());
+        let (needed, is_hard) = coarser.needed(coarser.found.as_ref());
+        let preconditioning = needed.max(first.preconditioning);
         let Coarser { found: coarse, mut differences, solves, predecessor } = coarser;
         let tolerance = if start.is_some() { self.tolerance } else { Tolerance::Residual(self.tolerance.residual()) };
         let found = OneMesh { procedure: self, tolerance, is_last: true, is_hard }.solve(&mut problem, start, preconditioning)?;

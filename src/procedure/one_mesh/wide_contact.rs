@@ -6,6 +6,7 @@ use crate::discretisation::{Contact, Scene, SystemError, widest};
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, Numbering};
 use crate::procedure::sequence::LoadedPlace;
+use crate::programme::{FoundByProgramme, Prediction};
 
 /// Segments of the programme where no place is known to touch first.
 const EVEN: usize = 16;
@@ -21,16 +22,6 @@ const GROWTH: f64 = 3.0;
 /// Segments beside what presses that a contact boundary begins with: an end that lies too far in is seen only if there is pressure
 /// beside it, one too far out costs a multiplier that opens.
 const ROOM: usize = 1;
-
-/// What rank 0 has found, as all ranks know it.
-pub(crate) struct FoundByProgramme {
-    /// Displacements of all nodes (length).
-    pub displacement: Vec<Point>,
-    /// Pressures of all multipliers.
-    pub pressures: Vec<f64>,
-    /// Mean gaps of theirs (length).
-    pub gaps: Vec<f64>,
-}
 
 /// A contact as the programme has it: as far as the sides face each other within reach, with constant pressures on segments that
 /// become short towards the place where the sides touch first.
@@ -62,10 +53,15 @@ impl WideContact {
     fn presses_elsewhere(&self, pressures: &[f64], least: f64) -> bool {
         let (contact, force) = (&self.contact, self.force(pressures));
         let Some([at, half]) = self.pressed_by(force).filter(|_| force > least && contact.has_free_ends()) else { return false };
-        let (boundary, multipliers) = (&contact.boundary, &contact.multipliers);
+        self.moment(pressures, at, 1).abs() > force * half
+    }
+
+    /// The forces of what presses, each by a power of the way of its segment from an arc length.
+    fn moment(&self, pressures: &[f64], at: f64, power: i32) -> f64 {
+        let Contact { boundary, multipliers, first, .. } = &self.contact;
         let way = |own: usize| boundary.segment_arcs(multipliers.segment_of(own)).iter().sum::<f64>() * 0.5 - at;
-        let moment = |i: usize| pressures[i].max(0.0) * multipliers.integral(i - contact.first) * way(i - contact.first);
-        contact.range().map(moment).sum::<f64>().abs() > force * half
+        let moment = |i: usize| pressures[i].max(0.0) * multipliers.integral(i - first) * way(i - first).powi(power);
+        self.contact.range().map(moment).sum()
     }
 
     /// Γ_C about the place where the sides touch first, as wide as its force presses there.
@@ -115,11 +111,43 @@ pub(crate) fn largest_force(wide: &[WideContact], pressures: &[f64]) -> f64 {
     wide.iter().map(|wide| wide.force(pressures)).fold(0.0, f64::max)
 }
 
-/// Where contacts lie if bodies stay as they are drawn, if what presses on one of them lies elsewhere; a force below `least` does not
-/// count.
-pub(crate) fn as_drawn(wide: &[WideContact], pressures: &[f64], least: f64) -> Option<Vec<Known>> {
-    let presses_elsewhere = wide.iter().any(|wide| wide.presses_elsewhere(pressures, least));
-    presses_elsewhere.then(|| wide.iter().map(|wide| wide.as_drawn(pressures, least)).collect())
+/// What a programme says of contacts, with them. Where it lets a body go it is asked again on fine segments: one long segment pushes
+/// along its mean normal alone, and a roller that climbs to the end of its seat needs that of the end. **Collective** where
+/// `predict` is.
+pub(crate) fn asked(
+    scene: &Scene,
+    numbering: &Numbering,
+    wide: Vec<WideContact>,
+    predict: impl Fn(&[Contact]) -> Result<Prediction, SystemError>,
+) -> Result<(Vec<WideContact>, Prediction), SystemError> {
+    let answer = predict(&drawn_contacts(&wide))?;
+    if !matches!(answer, Prediction::Driven { .. }) {
+        return Ok((wide, answer));
+    }
+    let fine = wide_contacts(scene, numbering, Fineness::Fine)?;
+    let answer = predict(&drawn_contacts(&fine))?;
+    Ok((fine, answer))
+}
+
+/// Words for a body that has to turn before contacts hold it that lie as they are drawn, if what presses on one of them lies
+/// elsewhere; nothing if none has. A force below `least` does not count. **Collective** where `predict` is.
+pub(crate) fn tips(
+    scene: &Scene,
+    numbering: &Numbering,
+    wide: &[WideContact],
+    (pressures, least): (&[f64], f64),
+    predict: impl Fn(&[Contact]) -> Result<Prediction, SystemError>,
+) -> Result<Option<String>, SystemError> {
+    if !wide.iter().any(|wide| wide.presses_elsewhere(pressures, least)) {
+        return Ok(None);
+    }
+    let drawn: Vec<Known> = wide.iter().map(|wide| wide.as_drawn(pressures, least)).collect();
+    // Where a contact cannot lie, nothing is said.
+    let Ok(contacts) = Contact::all_again(scene, numbering, 0, &drawn, &|_: EdgeNode| Point::zeros()) else { return Ok(None) };
+    Ok(match predict(&contacts)? {
+        Prediction::Driven { words, turns: true } => Some(words),
+        _ => None,
+    })
 }
 
 fn wide_contact(
@@ -244,12 +272,10 @@ pub(crate) fn narrowed(wide: &WideContact, active: &[bool], found: &FoundByProgr
         let at = boundary.arc(boundary.foot(touch.place));
         let half = touch.half_width(force.max(least), contact.compliance);
         let reach = half.unwrap_or(boundary.length());
-        let way = |i: usize| boundary.segment_arcs(segment(i)).iter().sum::<f64>() * 0.5 - at;
-        let moment = |i: usize| found.pressures[i].max(0.0) * multipliers.integral(i - contact.first) * way(i).powi(2);
         // What presses farther from the place than the force alone would, or than the edge there bends, has another reason: a corner,
         // sides that conform.
         let near = reach.max(contact.edge_length());
-        let is_narrow = force <= least || contact.range().map(moment).sum::<f64>() <= force * near * near;
+        let is_narrow = force <= least || wide.moment(&found.pressures, at, 2) <= force * near * near;
         if is_narrow && half.is_some() {
             let middle = 0.5 * (ends[0] + ends[1]);
             let middle = if ends[0] <= at && at <= ends[1] { at } else { middle };

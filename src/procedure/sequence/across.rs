@@ -17,7 +17,7 @@ const EQUAL: f64 = 1e-6;
 pub(crate) fn across(mesh: &MacroMesh, pairs: &[Pair], marked: &[u32]) -> Vec<u32> {
     let mut is_marked = vec![false; mesh.triangles.len()];
     marked.iter().for_each(|&triangle| is_marked[triangle as usize] = true);
-    let edges = |name: &String| mesh.boundary(name).map_or(&[][..], |boundary| boundary.edges.as_slice());
+    let edges = |name: &String| mesh.edges_of(name);
     let triangle = |edge: u32| mesh.edges[edge as usize].triangles[0];
     let mut all = Vec::new();
     for pair in pairs {
@@ -41,8 +41,8 @@ fn longer(mesh: &MacroMesh, edge: u32, facing: &[u32]) -> Vec<u32> {
 }
 
 /// Distance of a point from the chord of an edge.
-fn distance(mesh: &MacroMesh, x: Point, edge: u32) -> f64 {
-    let [a, b] = mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+pub(crate) fn distance(mesh: &MacroMesh, x: Point, edge: u32) -> f64 {
+    let [a, b] = mesh.edge_ends(edge);
     let along = ((x - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
     (a + along * (b - a) - x).norm()
 }

@@ -7,6 +7,7 @@ use crate::accuracy::{Accuracy, Goal, Quantity};
 use crate::discretisation::{Scene, SystemError};
 use crate::geometry::Point;
 use crate::mesh::{BisectedMesh, MacroMesh};
+use crate::procedure::sequence::across::distance;
 use crate::procedure::sequence::mesh_sequence::MeshSequence;
 use crate::procedure::settings::Procedure;
 
@@ -89,14 +90,12 @@ pub(crate) struct LoadedPlace {
 impl WantedEdge<'_> {
     /// Macro triangles with an edge on the contact at the place that is too long.
     fn too_long(&self, mesh: &MacroMesh) -> Vec<u32> {
-        let edges = self.between.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
         let is_near = |edge: u32| {
-            let ends = mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
-            let along = ((self.place - ends[0]).dot(&(ends[1] - ends[0])) / (ends[1] - ends[0]).norm_squared()).clamp(0.0, 1.0);
+            let ends = mesh.edge_ends(edge);
             let bent = (mesh.edge_position(edge, 0.5) - 0.5 * (ends[0] + ends[1])).norm();
-            (ends[0] + along * (ends[1] - ends[0]) - self.place).norm() <= self.half + bent
+            distance(mesh, self.place, edge) <= self.half + bent
         };
-        let long = edges.copied().filter(|&edge| mesh.edge_length(edge) > self.edge && is_near(edge));
+        let long = mesh.edges_on(self.between).filter(|&edge| mesh.edge_length(edge) > self.edge && is_near(edge));
         long.filter_map(|edge| mesh.edges[edge as usize].triangles[0]).collect()
     }
 }
