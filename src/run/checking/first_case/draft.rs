@@ -124,13 +124,10 @@ order = 2
             let Some(NodeCircle { centre, radius, .. }) = curve.circle else { continue };
             let digits = |x: f64| format!("{x:.9e}").parse::<f64>().unwrap_or(x);
             let [x, y] = [centre.x, centre.y].map(|x| if x.abs() < NOTHING * radius { 0.0 } else { digits(x) });
-            let _ = write!(
-                text,
-                "\n[geometry.{}]       # its nodes lie on this circle; leave this out if it is meant with straight sides\ncurves = {}\ncircle = {{ centre = [{x:?}, {y:?}], radius = {:?} }}\n",
-                tables.fresh(curve.name),
-                quoted(curve.name),
-                digits(radius)
-            );
+            let (name, own, radius) = (tables.fresh(curve.name), quoted(curve.name), digits(radius));
+            let why = "its nodes lie on this circle; leave this out if it is meant with straight sides";
+            let _ = write!(text, "\n[geometry.{name}]       # {why}\ncurves = {own}\n");
+            let _ = writeln!(text, "circle = {{ centre = [{x:?}, {y:?}], radius = {radius:?} }}");
         }
     }
 
@@ -150,22 +147,14 @@ order = 2
     }
 
     fn supports(&self, text: &mut String, tables: &mut TableNames) {
-        for curve in self.guesses.curves.iter().filter(|curve| curve.has(&MIRRORED) && !curve.is_touched) {
-            let _ = write!(
-                text,
-                "\n[support.{}]       # a line of symmetry, by its name\non = {}\nnormal = 0.0\n",
-                tables.fresh(curve.name),
-                quoted(curve.name)
-            );
+        for curve in self.guesses.curves.iter().filter(|curve| curve.has(MIRRORED) && !curve.is_touched) {
+            let (name, own) = (tables.fresh(curve.name), quoted(curve.name));
+            let _ = write!(text, "\n[support.{name}]       # a line of symmetry, by its name\non = {own}\nnormal = 0.0\n");
         }
         if let Some(curve) = self.guesses.held() {
             let why = if curve.is_held() { "by its name" } else { "the lowest boundary that looks down" };
-            let _ = write!(
-                text,
-                "\n[support.{}]       # held: {why}\non = {}\nux = 0.0\nuy = 0.0\n",
-                tables.fresh(curve.name),
-                quoted(curve.name)
-            );
+            let (name, own) = (tables.fresh(curve.name), quoted(curve.name));
+            let _ = write!(text, "\n[support.{name}]       # held: {why}\non = {own}\nux = 0.0\nuy = 0.0\n");
         }
         if let Some((body, motions)) = self.guesses.foundation() {
             *text += "\n# No named boundary looks like one that is held, so the mean motion of the lowest body is. That carries the load all over\n# the body; where it stands on something, name that line in the mesh, hold it, and leave this out.\n";
@@ -205,8 +194,8 @@ order = 2
         let sense = self.guesses.sense(curve, direction);
         let what = if sense < 0.0 { "pulled" } else { "pressed" };
         let why = match curve {
-            _ if sense < 0.0 && !curve.has(&PULLED) => "a push would open every contact of its body",
-            _ if curve.has(&LOADED) => "by its name",
+            _ if sense < 0.0 && !curve.has(PULLED) => "a push would open every contact of its body",
+            _ if curve.has(LOADED) => "by its name",
             _ => "the highest boundary that looks up",
         };
         let mut tables = TableNames::default();
@@ -257,18 +246,10 @@ angle = 0.0               # and does not turn
         }
         *text += "\n# Boundaries of the mesh, for on = and between =:\n";
         for curve in curves.iter().take(MOST_NAMED) {
-            let (low, high) = (curve.low, curve.high);
-            let _ = writeln!(
-                text,
-                "#   {}: of {}, length {}, x from {} to {}, y from {} to {}",
-                quoted(curve.name),
-                quoted(&self.guesses.mesh.bodies[curve.body]),
-                short(curve.length),
-                short(low.x),
-                short(high.x),
-                short(low.y),
-                short(high.y)
-            );
+            let (name, body) = (quoted(curve.name), quoted(&self.guesses.mesh.bodies[curve.body]));
+            let sizes = [curve.length, curve.low.x, curve.high.x, curve.low.y, curve.high.y];
+            let [length, left, right, low, high] = sizes.map(short);
+            let _ = writeln!(text, "#   {name}: of {body}, length {length}, x from {left} to {right}, y from {low} to {high}");
         }
         if curves.len() > MOST_NAMED {
             let _ = writeln!(text, "#   and {} more", curves.len() - MOST_NAMED);

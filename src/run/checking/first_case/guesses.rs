@@ -80,7 +80,7 @@ impl<'a> Guesses<'a> {
 
     /// Boundaries without contact and not of symmetry.
     fn free(&self) -> impl Iterator<Item = &NamedCurve<'a>> {
-        self.curves.iter().filter(|curve| !curve.is_touched && !curve.has(&MIRRORED))
+        self.curves.iter().filter(|curve| !curve.is_touched && !curve.has(MIRRORED))
     }
 
     /// The boundary that is held: by its name, or because it is the lowest and looks down.
@@ -105,7 +105,7 @@ impl<'a> Guesses<'a> {
 
     /// Those of some mean motions of a body that its lines of symmetry leave free; nothing if none is, or if it has no mean motion.
     fn unresisted(&self, body: usize, mut motions: [bool; 3]) -> Option<[bool; 3]> {
-        let mirrored = self.curves.iter().filter(|curve| curve.has(&MIRRORED) && !curve.is_touched);
+        let mirrored = self.curves.iter().filter(|curve| curve.has(MIRRORED) && !curve.is_touched);
         let edges = mirrored.filter_map(|curve| self.mesh.boundary(curve.name)).flat_map(|boundary| &boundary.edges);
         for &edge in edges.filter(|&&edge| self.mesh.body_beside(edge) == body) {
             let normal = self.mesh.edge_normal(edge, 0.5);
@@ -122,10 +122,10 @@ impl<'a> Guesses<'a> {
             Some(held) => curve.name != held.name && (curve.body != held.body || self.mesh.bodies.len() == 1),
             None => self.foundation().is_none_or(|(body, _)| body != curve.body),
         };
-        let rank = |curve: &&NamedCurve| (curve.has(&LOADED), curve.normal.y > ALONG, curve.high.y);
-        let likely = self.free().filter(other).filter(|curve| curve.has(&LOADED) || curve.normal.y > ALONG && !curve.is_held());
+        let rank = |curve: &&NamedCurve| (curve.has(LOADED), curve.normal.y > ALONG, curve.high.y);
+        let likely = self.free().filter(other).filter(|curve| curve.has(LOADED) || curve.normal.y > ALONG && !curve.is_held());
         // Bodies that are drawn into each other are loaded by that, unless a name says otherwise.
-        let likely = likely.filter(|curve| curve.has(&LOADED) || !self.is_pressed_in());
+        let likely = likely.filter(|curve| curve.has(LOADED) || !self.is_pressed_in());
         let best = likely.max_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal));
         best.filter(|curve| curve.is_of_one_piece)
     }
@@ -145,7 +145,7 @@ impl<'a> Guesses<'a> {
     pub fn sense(&self, curve: &NamedCurve, push: Point) -> f64 {
         let mut touched = self.curves.iter().filter(|other| other.body == curve.body && other.is_touched).peekable();
         let opens = touched.peek().is_some() && touched.all(|other| other.normal.dot(&push) < -AWAY);
-        if curve.has(&PULLED) || opens { -1.0 } else { 1.0 }
+        if curve.has(PULLED) || opens { -1.0 } else { 1.0 }
     }
 
     /// Bodies that rest on others and would lie loose there, since nothing presses them: neither a boundary nor a body that is

@@ -5,34 +5,12 @@ use crate::contact::ClosePair;
 use crate::geometry::Point;
 use crate::mesh::{Boundary, MacroMesh};
 
-/// Words in names of boundaries that are held, loaded, those of them that are pulled, and of symmetry.
-pub const HELD: [&str; 19] = [
-    "bottom",
-    "base",
-    "fixed",
-    "fix",
-    "clamp",
-    "clamped",
-    "ground",
-    "floor",
-    "foot",
-    "foundation",
-    "support",
-    "wall",
-    "root",
-    "grip",
-    "hold",
-    "held",
-    "mount",
-    "anchor",
-    "encastre",
-];
-pub const LOADED: [&str; 16] = [
-    "top", "load", "loaded", "press", "pressed", "pressure", "force", "punch", "push", "piston", "pull", "pulled", "tension",
-    "drag", "lift", "traction",
-];
-pub const PULLED: [&str; 6] = ["pull", "pulled", "tension", "drag", "lift", "traction"];
-pub const MIRRORED: [&str; 4] = ["symmetry", "sym", "symm", "mirror"];
+/// Words in names of boundaries that are held, loaded, those of them that are pulled, and of symmetry, with blanks between them.
+pub const HELD: &str =
+    "bottom base fixed fix clamp clamped ground floor foot foundation support wall root grip hold held mount anchor encastre";
+pub const LOADED: &str = "top load loaded press pressed pressure force punch push piston pull pulled tension drag lift traction";
+pub const PULLED: &str = "pull pulled tension drag lift traction";
+pub const MIRRORED: &str = "symmetry sym symm mirror";
 
 /// Last words in names of holes that are held. Before other words they name the body: `hub.outside` is free.
 const BORES: [&str; 5] = ["bore", "axle", "axis", "hub", "shaft"];
@@ -86,14 +64,14 @@ impl<'a> NamedCurve<'a> {
     }
 
     /// Whether its name has one of some words, in any case, with a number behind it or not.
-    pub fn has(&self, words: &[&str]) -> bool {
+    pub fn has(&self, words: &str) -> bool {
         let is_known = |own: &String, word: &str| own == word || word.len() >= LONG && own.starts_with(word);
-        self.words().iter().any(|own| words.iter().any(|word| is_known(own, word)))
+        self.words().iter().any(|own| words.split(' ').any(|word| is_known(own, word)))
     }
 
     /// Whether its name says that it is held.
     pub fn is_held(&self) -> bool {
-        self.has(&HELD) || self.words().last().is_some_and(|last| BORES.contains(&last.as_str()))
+        self.has(HELD) || self.words().last().is_some_and(|last| BORES.contains(&last.as_str()))
     }
 
     /// The words of its name, in small letters and without numbers: `Seal.gripLeft2` has three.
@@ -123,6 +101,6 @@ mod tests {
         for name in ["hub.outside", "basalt", "seam", "routed", "axle.left flank"] {
             assert!(!named(name).is_held(), "{name}");
         }
-        assert!(named("bolt.pull").has(&PULLED) && named("PullRight").has(&LOADED) && !named("pulley").has(&LOADED));
+        assert!(named("bolt.pull").has(PULLED) && named("PullRight").has(LOADED) && !named("pulley").has(LOADED));
     }
 }
