@@ -1,6 +1,5 @@
 //! A target that is a mount point, as the volume of a container is: no folder can take its name, so the files of a result move into it.
 
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
@@ -38,7 +37,7 @@ pub fn move_in(temporary: &Path, target: &Path, kept: Option<&Path>) -> Result<(
     remove_if_there(&target.join(SUMMARY))?;
     let before = kept.into_iter().fold(before, |own, kept| own.without(kept));
     before.names().try_for_each(|name| remove_if_there(&target.join(name)))?;
-    let summary = OwnFiles::from(BTreeSet::from([SUMMARY.into()]));
+    let summary = OwnFiles([SUMMARY.into()].into());
     carry_over(temporary, target, Path::new(""), &summary)?;
     fs::rename(temporary.join(SUMMARY), target.join(SUMMARY)).map_err(OutputError::io("make", &target.join(SUMMARY)))?;
     fs::remove_dir_all(temporary).map_err(OutputError::io("remove", temporary))

@@ -13,13 +13,7 @@ pub const SUMMARY: &str = "summary.json";
 
 /// Names of the files of a result, relative to its folder.
 #[derive(Debug, Default)]
-pub struct OwnFiles(BTreeSet<PathBuf>);
-
-impl From<BTreeSet<PathBuf>> for OwnFiles {
-    fn from(names: BTreeSet<PathBuf>) -> Self {
-        Self(names)
-    }
-}
+pub struct OwnFiles(pub BTreeSet<PathBuf>);
 
 impl OwnFiles {
     /// The files that the summary in a folder lists; None if there is no summary of mezha.

@@ -5,7 +5,7 @@ use crate::case::{Case, read_text};
 use crate::contact::Pair;
 use crate::element::Plane;
 use crate::geometry::{Formula, Point};
-use crate::mesh::{MacroMesh, MacroTriangle, Stretch};
+use crate::mesh::{Boundary, MacroMesh, MacroTriangle, Stretch};
 use crate::output::plot::{
     BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure, bounds, number_text,
 };
@@ -118,13 +118,12 @@ fn content(case: &Case, mesh: &MacroMesh) -> SceneFigure {
     let (supports, loads) = acting(case, mesh);
     let is_big = mesh.edges.len() > MOST_EDGES;
     let curves = mesh.physical_curves().into_iter().filter(|boundary| case.tool_of(&boundary.name).is_none());
+    let named = |boundary: &Boundary| NamedRows { name: boundary.name.clone(), rows: rows(mesh, &boundary.edges), place: None };
     let mut figure = SceneFigure {
         title: title(case).into(),
         parts: parts(case, mesh),
         edges: if is_big { Vec::new() } else { (0..mesh.edges.len() as u32).map(|edge| points(mesh, edge)).collect() },
-        boundaries: curves
-            .map(|boundary| NamedRows { name: boundary.name.clone(), rows: rows(mesh, &boundary.edges), place: None })
-            .collect(),
+        boundaries: curves.map(named).collect(),
         contacts: contacts(case, mesh),
         supports,
         loads,
@@ -224,12 +223,8 @@ fn parts(case: &Case, mesh: &MacroMesh) -> Vec<DrawnPart> {
         let surface = &mesh.parts[number];
         let body = &mesh.bodies[surface.body as usize];
         let name = if *body == surface.name { body.clone() } else { format!("{body}: {}", surface.name) };
-        DrawnPart {
-            is_rigid: case.tool_of(body).is_some(),
-            name,
-            triangles: own.iter().map(around).collect(),
-            inside: inside(mesh, &own).into(),
-        }
+        let (is_rigid, triangles) = (case.tool_of(body).is_some(), own.iter().map(around).collect());
+        DrawnPart { name, is_rigid, triangles, inside: inside(mesh, &own).into() }
     };
     triangles_of(mesh, mesh.parts.len(), |triangle| triangle.part).into_iter().enumerate().map(part).collect()
 }
@@ -327,7 +322,7 @@ fn surface_load(load: &Load, on: &dyn Fn(&[String]) -> Rows) -> DrawnLoad {
         LoadKind::Pressure(pressure) => values(&[("pressure", Some(pressure))]),
         LoadKind::Traction([x, y]) => values(&[("tx", Some(x)), ("ty", Some(y))]),
     };
-    DrawnLoad { name: load.name.clone(), words, rows, resultant: None, is_plate: false }
+    DrawnLoad { name: load.name.clone(), words, rows, ..DrawnLoad::default() }
 }
 
 /// Both components of a vector.
@@ -339,26 +334,19 @@ fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<D
     let arrow = |name: &str, words: String, place: [f64; 2], along: [f64; 2]| DrawnLoad {
         name: name.into(),
         words,
-        rows: Vec::new(),
         resultant: Some((place, along)),
-        is_plate: false,
+        ..DrawnLoad::default()
     };
     let plates = case.plates.iter().map(|plate| {
         let rows = on(&plate.on);
         let [fx, fy, _] = plate.motion.applied;
         let middle = rows.iter().flatten().nth(rows.iter().flatten().count() / 2).map_or([0.0; 2], |point| point.place);
-        DrawnLoad {
-            rows,
-            is_plate: true,
-            ..arrow(&plate.name, format!("stiff plate, force {}", vector([fx, fy])), middle, [fx, fy])
-        }
+        let words = format!("stiff plate, force {}", vector([fx, fy]));
+        DrawnLoad { rows, is_plate: true, ..arrow(&plate.name, words, middle, [fx, fy]) }
     });
     let at_points = case.point_loads.iter().map(|load| {
-        let place = load.at.place;
-        DrawnLoad {
-            rows: lone_point(place),
-            ..arrow(&load.name, format!("force {}", vector(load.force().into())), place, load.force().into())
-        }
+        let (place, force) = (load.at.place, load.force().into());
+        DrawnLoad { rows: lone_point(place), ..arrow(&load.name, format!("force {}", vector(force)), place, force) }
     });
     let tools = case.tools.iter().filter_map(|tool| {
         let [fx, fy, _] = tool.motion.applied;

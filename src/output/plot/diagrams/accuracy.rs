@@ -28,14 +28,9 @@ const LAST: usize = 3;
 const LEAST_SPREAD: f64 = 1e-9;
 
 impl Sequence {
-    /// Estimates that a logarithmic diagram can show.
-    fn shown(&self) -> impl Iterator<Item = (f64, f64)> {
-        shown(&self.estimates)
-    }
-
     /// The exponent p of error ~ N^-p on the last three meshes, by least squares; None on fewer, or if N is the same on all.
     pub fn order(&self) -> Option<f64> {
-        let all: Vec<(f64, f64)> = self.shown().map(|(n, error)| (n.ln(), error.ln())).collect();
+        let all: Vec<(f64, f64)> = shown(&self.estimates).map(|(n, error)| (n.ln(), error.ln())).collect();
         let last = &all[all.len().checked_sub(LAST)?..];
         let mean = |value: fn(&(f64, f64)) -> f64| last.iter().map(value).sum::<f64>() / LAST as f64;
         let (x, y) = (mean(|point| point.0), mean(|point| point.1));
@@ -62,15 +57,12 @@ impl Sequence {
 
     /// What was asked for, true errors and estimates as lines of a diagram. Estimates above what was asked for are hollow.
     fn lines(&self, style: usize) -> [DiagramLine; 3] {
-        let asked = self.shown().chain(shown(&self.errors)).map(|(n, _)| Mark::at(n, self.asked, false)).take(1).collect();
+        let asked =
+            shown(&self.estimates).chain(shown(&self.errors)).map(|(n, _)| Mark::at(n, self.asked, false)).take(1).collect();
         let errors = shown(&self.errors).map(|(n, error)| Mark::at(n, error, false)).collect();
-        let estimates = self.shown().map(|(n, error)| Mark::at(n, error, error > self.asked)).collect();
-        [(LineKind::Level, asked), (LineKind::Dashed, errors), (LineKind::Marked, estimates)].map(|(kind, marks)| DiagramLine {
-            name: self.name.clone(),
-            style,
-            kind,
-            marks,
-        })
+        let estimates = shown(&self.estimates).map(|(n, error)| Mark::at(n, error, error > self.asked)).collect();
+        let line = |(kind, marks)| DiagramLine { name: self.name.clone(), style, kind, marks };
+        [(LineKind::Level, asked), (LineKind::Dashed, errors), (LineKind::Marked, estimates)].map(line)
     }
 }
 
@@ -85,7 +77,7 @@ fn shown(points: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> {
 /// # Errors
 /// No error is known on any mesh; the operating system refuses.
 pub fn write_accuracy(path: &Path, title: &str, goals: &[Sequence]) -> Result<(), OutputError> {
-    if goals.iter().all(|goal| goal.shown().next().is_none()) {
+    if goals.iter().all(|goal| shown(&goal.estimates).next().is_none()) {
         return Err(OutputError::Figure { path: path.into(), reason: "no error is known on any mesh".into() });
     }
     let known = goals.iter().any(|goal| shown(&goal.errors).next().is_some());

@@ -108,13 +108,11 @@ impl Canvas {
 
     /// The text of an SVG file.
     pub fn svg(&self) -> String {
-        let [width, height] = self.extent;
+        let ([width, height], [across, down]) = (self.extent, self.extent.map(|side| 10.0 * side));
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" viewBox=\"0 0 {:.0} {:.0}\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" viewBox=\"0 0 {across:.0} {down:.0}\" \
              font-family=\"sans-serif\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n\
              <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{}</svg>\n",
-            10.0 * width,
-            10.0 * height,
             self.elements
         )
     }

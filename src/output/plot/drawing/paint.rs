@@ -25,21 +25,11 @@ pub const GREEN: Colour = Colour(0, 158, 115);
 /// and Ito.
 pub const LINES: [Colour; 7] = [BLUE, VERMILION, GREEN, Colour(230, 159, 0), Colour(204, 121, 167), Colour(86, 180, 233), INK];
 
-/// Nine equally spaced colours of viridis (van der Walt and Smith).
-const VIRIDIS: [[u8; 3]; 9] = [
-    [68, 1, 84],
-    [71, 44, 122],
-    [59, 81, 139],
-    [44, 113, 142],
-    [33, 144, 141],
-    [39, 173, 129],
-    [92, 200, 99],
-    [170, 220, 50],
-    [253, 231, 37],
-];
+/// Nine equally spaced colours of viridis (van der Walt and Smith), as `#rrggbb`.
+const VIRIDIS: [u32; 9] = [0x440154, 0x472c7a, 0x3b518b, 0x2c718e, 0x21908d, 0x27ad81, 0x5cc863, 0xaadc32, 0xfde725];
 
 /// Blue and vermilion of Okabe and Ito between a light middle and dark ends.
-const DIVERGING: [[u8; 3]; 5] = [[0, 36, 84], [0, 114, 178], [242, 242, 242], [213, 94, 0], [92, 24, 0]];
+const DIVERGING: [u32; 5] = [0x002454, 0x0072b2, 0xf2f2f2, 0xd55e00, 0x5c1800];
 
 /// Viridis at a fraction of its range; fractions outside 0 to 1 take the colour of the nearest end.
 pub fn viridis(fraction: f64) -> Colour {
@@ -52,15 +42,15 @@ pub fn diverging(value: f64) -> Colour {
 }
 
 /// The colour at a fraction of a range of equally spaced ones.
-fn between(colours: &[[u8; 3]], fraction: f64) -> Colour {
+fn between(colours: &[u32], fraction: f64) -> Colour {
     let place = fraction.clamp(0.0, 1.0) * (colours.len() - 1) as f64;
     let below = (place as usize).min(colours.len() - 2);
     let weight = place - below as f64;
-    let mixed = |channel: usize| {
-        let [low, high] = [colours[below][channel], colours[below + 1][channel]].map(f64::from);
+    let mixed = |shift: u32| {
+        let [low, high] = [colours[below], colours[below + 1]].map(|colour| f64::from((colour >> shift) & 0xff));
         (low + weight * (high - low)).round() as u8
     };
-    Colour(mixed(0), mixed(1), mixed(2))
+    Colour(mixed(16), mixed(8), mixed(0))
 }
 
 impl Display for Colour {

@@ -56,7 +56,7 @@ pub struct DrawnSupport {
 }
 
 /// A load.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct DrawnLoad {
     /// Its name.
     pub name: String,

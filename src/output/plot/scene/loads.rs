@@ -34,7 +34,7 @@ impl ScenePlot {
         if strength > 0.0 {
             let normal = load.rows.iter().flatten().next().map_or(direction.map(|part| -part), |point| point.normal);
             let (length, along) = (size * RESULTANT, direction.map(|part| part / strength));
-            let at = self.labels.within(self.at(place), length);
+            let at = self.labels.within(self.chart.place(place), length);
             self.arrow(at, flipped(along), flipped(normal), length, 1.8 * size);
         }
     }
@@ -46,7 +46,7 @@ impl ScenePlot {
         for point in self.spread(&load.rows, APART) {
             let own = strength(&point);
             if own > 1e-6 * largest && largest.is_finite() {
-                let (at, along) = (self.at(point.place), flipped(point.traction.map(|part| part / own)));
+                let (at, along) = (self.chart.place(point.place), flipped(point.traction.map(|part| part / own)));
                 let length = (size * LONGEST * own / largest).max(8.0 * size);
                 self.arrow(at, along, flipped(point.normal), length, size);
             }

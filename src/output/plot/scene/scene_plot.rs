@@ -31,11 +31,6 @@ impl ScenePlot {
         Self { canvas, chart, labels }
     }
 
-    /// The place of a point of the plane in the figure.
-    pub fn at(&self, x: [f64; 2]) -> [f64; 2] {
-        self.chart.place(x)
-    }
-
     /// Bodies with their macro edges, and contacts, each in its colour.
     pub fn bodies(&mut self, figure: &SceneFigure) {
         let chart = &self.chart;
@@ -71,7 +66,7 @@ impl ScenePlot {
         if row.len() == 1 {
             return row.to_vec();
         }
-        let placed: Vec<[f64; 2]> = row.iter().map(|point| self.at(point.place)).collect();
+        let placed: Vec<[f64; 2]> = row.iter().map(|point| self.chart.place(point.place)).collect();
         let steps: Vec<f64> = placed.windows(2).map(|two| (two[1][0] - two[0][0]).hypot(two[1][1] - two[0][1])).collect();
         let length: f64 = steps.iter().sum();
         let count = ((length / apart).round() as usize).clamp(1, MOST_MARKS);
@@ -90,7 +85,7 @@ impl ScenePlot {
     pub fn middle(&self, rows: &Rows, share: f64) -> Option<([f64; 2], [f64; 2])> {
         let row = rows.iter().max_by_key(|row| row.len())?;
         let point = row.get(((row.len() - 1) as f64 * share).round() as usize)?;
-        Some((self.at(point.place), flipped(point.normal)))
+        Some((self.chart.place(point.place), flipped(point.normal)))
     }
 }
 

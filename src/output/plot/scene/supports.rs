@@ -65,7 +65,7 @@ impl ScenePlot {
         for support in &figure.supports {
             self.along(&support.rows, Paint::line(GREEN, 2.0 * size));
             for BoundaryPoint { place, normal, .. } in self.spread(&support.rows, APART) {
-                self.mark(&MarkFrame::new(self.at(place), support.grip, flipped(normal), size), support.grip);
+                self.mark(&MarkFrame::new(self.chart.place(place), support.grip, flipped(normal), size), support.grip);
             }
         }
     }
