@@ -8,7 +8,7 @@ use std::process::Command;
 
 use mezha::element::Order;
 use mezha::output::ContactPoint;
-use mezha::output::vtk::{Piece, write_curve, write_parallel, write_piece};
+use mezha::output::vtk::{Piece, PieceNode, write_curve, write_parallel, write_piece};
 
 /// Two triangles of the rectangle with the given lower left corner, with fields that are formulas of the place.
 fn write_rectangle(path: &Path, order: Order, corner: [f64; 2], rank: i32) {
@@ -19,23 +19,18 @@ fn write_rectangle(path: &Path, order: Order, corner: [f64; 2], rank: i32) {
             &[0, 1, 2, 4, 5, 6, 0, 2, 3, 6, 7, 8],
         ),
     };
-    let points: Vec<[f64; 2]> = offsets.iter().map(|d| [corner[0] + d[0], corner[1] + d[1]]).collect();
-    let displacement: Vec<[f64; 2]> = points.iter().map(|[x, y]| [0.1 * x + y / 3.0, x * y]).collect();
-    let stress: Vec<[f64; 4]> = points.iter().map(|[x, y]| [x + y, x - y, x * y, 0.3 * x]).collect();
-    let von_mises: Vec<f64> = points.iter().map(|[x, y]| 1e-7 * x + 1e7 * y).collect();
-    let temperature: Vec<f64> = points.iter().map(|[x, y]| 20.0 + x - 3.0 * y).collect();
-    let piece = Piece {
-        points: &points,
-        cells,
-        order,
-        displacement: &displacement,
-        stress: &stress,
-        von_mises: &von_mises,
-        temperature: Some(&temperature),
-        body: &[7, 8],
-        part: &[9, 8],
-        rank,
+    let node = |d: &[f64; 2]| {
+        let [x, y] = [corner[0] + d[0], corner[1] + d[1]];
+        PieceNode {
+            place: [x, y],
+            displacement: [0.1 * x + y / 3.0, x * y],
+            stress: [x + y, x - y, x * y, 0.3 * x],
+            von_mises: 1e-7 * x + 1e7 * y,
+            temperature: 20.0 + x - 3.0 * y,
+        }
     };
+    let (nodes, parts) = (offsets.iter().map(node).collect(), vec![[7, 9], [8, 8]]);
+    let piece = Piece { order, nodes, cells: cells.to_vec(), parts, is_heated: true, rank };
     write_piece(path, &piece).unwrap();
 }
 
@@ -70,10 +65,8 @@ fn python_reads_what_was_written() {
     let pieces = ["fields_0.vtu", "fields_1.vtu", "fields_2.vtu"];
     write_rectangle(&path(pieces[0]), Order::P2, [0.0, 0.0], 0);
     write_rectangle(&path(pieces[1]), Order::P2, [2.0, 0.0], 1);
-    let (order, body, part) = (Order::P2, &[], &[]);
-    let (displacement, temperature) = (&[], Some(&[][..]));
-    let empty =
-        Piece { points: &[], cells: &[], order, displacement, stress: &[], von_mises: &[], temperature, body, part, rank: 2 };
+    let (nodes, cells, parts) = (Vec::new(), Vec::new(), Vec::new());
+    let empty = Piece { order: Order::P2, nodes, cells, parts, is_heated: true, rank: 2 };
     write_piece(&path(pieces[2]), &empty).unwrap();
     write_parallel(&path("fields.pvtu"), &pieces, true).unwrap();
     write_curve(&path("contact_arc.vtu"), &quarter_circle()).unwrap();

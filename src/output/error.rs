@@ -56,18 +56,6 @@ pub enum OutputError {
         /// The reason of the operating system.
         source: io::Error,
     },
-    /// Arrays that belong together differ in length.
-    #[error("cannot write `{}`: {what} has {found} entries, expected {expected}", path.display())]
-    Length {
-        /// The file.
-        path: PathBuf,
-        /// The array.
-        what: &'static str,
-        /// Its length.
-        found: usize,
-        /// The length it should have.
-        expected: usize,
-    },
     /// A figure that cannot be drawn.
     #[error("cannot draw `{}`: {reason}", path.display())]
     Figure {

@@ -110,7 +110,7 @@ impl From<petsc::Error> for RunError {
 impl From<OutputError> for RunError {
     fn from(error: OutputError) -> Self {
         match error {
-            OutputError::Io { .. } | OutputError::Length { .. } | OutputError::Figure { .. } => Self::Failed(error.to_string()),
+            OutputError::Io { .. } | OutputError::Figure { .. } => Self::Failed(error.to_string()),
             refused => Self::Input(refused.to_string()),
         }
     }

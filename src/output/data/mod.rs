@@ -1,13 +1,9 @@
 //! The numbers of a result as files for other programs: tables of contacts, their points and load steps, and fields.
 
-mod contacts;
-mod csv;
-mod steps;
+mod tables;
 pub mod vtk;
 
-pub use contacts::{CONTACTS, write_contacts};
-pub use csv::{ContactPoint, write_contact};
-pub use steps::write_steps;
+pub use tables::{CONTACTS, ContactPoint, write_contact, write_contacts, write_steps};
 
 /// The signs of a result, as its files state them in their header.
 pub const SIGNS: [&str; 5] = [
@@ -24,9 +20,4 @@ pub fn quoted(text: &str) -> String {
         true => format!("\"{}\"", text.replace('"', "\"\"")),
         false => text.into(),
     }
-}
-
-/// A number as a cell of a table; nothing stands there if it is not known, or not finite.
-fn number_cell(number: Option<f64>) -> String {
-    number.filter(|number| number.is_finite()).map_or(String::new(), |number| format!("{number:?}"))
 }

@@ -11,7 +11,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use super::SIGNS;
-use super::csv::ContactPoint;
+use super::tables::ContactPoint;
 use crate::element::Order;
 use crate::output::error::OutputError;
 
@@ -20,27 +20,34 @@ const VTK_LINE: u8 = 3;
 const VTK_TRIANGLE: u8 = 5;
 const VTK_QUADRATIC_TRIANGLE: u8 = 22;
 
-/// The triangles of one rank with the solution at their nodes; nodes are numbered within the piece.
+/// A node of a piece, with the solution there.
 #[derive(Clone, Copy, Debug)]
-pub struct Piece<'a> {
-    /// Undeformed nodes.
-    pub points: &'a [[f64; 2]],
-    /// Nodes of the triangles, 3 each (P1) or 6 (P2: corners, then the midsides of edges 01, 12, 20).
-    pub cells: &'a [u32],
+pub struct PieceNode {
+    /// Where it is, undeformed.
+    pub place: [f64; 2],
+    /// Its displacement.
+    pub displacement: [f64; 2],
+    /// Stress xx, yy, xy, zz.
+    pub stress: [f64; 4],
+    /// Von Mises stress.
+    pub von_mises: f64,
+    /// Temperature; any number if no body is heated.
+    pub temperature: f64,
+}
+
+/// The triangles of one rank with the solution at their nodes; nodes are numbered within the piece.
+#[derive(Clone, Debug)]
+pub struct Piece {
     /// P1 or P2.
     pub order: Order,
-    /// Displacement of each node.
-    pub displacement: &'a [[f64; 2]],
-    /// Stress xx, yy, xy, zz at each node.
-    pub stress: &'a [[f64; 4]],
-    /// Von Mises stress at each node.
-    pub von_mises: &'a [f64],
-    /// Temperature of each node; nothing if no body is heated.
-    pub temperature: Option<&'a [f64]>,
-    /// Number of the body of each triangle.
-    pub body: &'a [i32],
-    /// Number of the part, the physical surface, of each triangle.
-    pub part: &'a [i32],
+    /// Their nodes.
+    pub nodes: Vec<PieceNode>,
+    /// Nodes of the triangles, 3 each (P1) or 6 (P2: corners, then the midsides of edges 01, 12, 20).
+    pub cells: Vec<u32>,
+    /// Number of the body, and of the part, the physical surface, of each triangle.
+    pub parts: Vec<[i32; 2]>,
+    /// Whether a body is heated, so that temperatures are told.
+    pub is_heated: bool,
     /// The rank, shown as a field of the triangles.
     pub rank: i32,
 }
@@ -48,9 +55,8 @@ pub struct Piece<'a> {
 /// Writes the triangles of one rank: `fields.vtu`, or a piece of `fields.pvtu`.
 ///
 /// # Errors
-/// Arrays of unequal length; the operating system refuses.
+/// The operating system refuses.
 pub fn write_piece(path: &Path, piece: &Piece) -> Result<(), OutputError> {
-    piece.check_lengths(path)?;
     write_file(path, "UnstructuredGrid", |out| piece.write(out))
 }
 
@@ -104,9 +110,9 @@ pub fn write_curve(path: &Path, points: &[ContactPoint]) -> Result<(), OutputErr
         )?;
         writeln!(out, "<PointData Scalars=\"lambda\" Normals=\"normal\">")?;
         for (name, value) in scalars {
-            write_array(out, name, 1, &[], points.len(), points.iter().map(value))?;
+            write_array(out, name, 1, &[], points.len(), points.iter().map(|p| value(p).to_le_bytes()))?;
         }
-        let normals = points.iter().flat_map(|p| [p.nx, p.ny, 0.0]);
+        let normals = points.iter().flat_map(|p| [p.nx, p.ny, 0.0].map(f64::to_le_bytes));
         write_array(out, "normal", 3, &[], 3 * points.len(), normals)?;
         writeln!(out, "</PointData>\n</Piece>")
     })
@@ -124,48 +130,37 @@ pub fn write_series<S: AsRef<str>>(path: &Path, files: &[(f64, S)]) -> Result<()
     })
 }
 
-impl Piece<'_> {
-    fn nodes_per_cell(&self) -> usize {
-        match self.order {
-            Order::P1 => 3,
-            Order::P2 => 6,
-        }
-    }
-
-    fn check_lengths(&self, path: &Path) -> Result<(), OutputError> {
-        let nodes = self.points.len();
-        let lengths = [
-            ("the displacement", self.displacement.len(), nodes),
-            ("the stress", self.stress.len(), nodes),
-            ("the von Mises stress", self.von_mises.len(), nodes),
-            ("the temperature", self.temperature.map_or(nodes, <[f64]>::len), nodes),
-            ("the list of parts", self.part.len(), self.body.len()),
-            ("the list of nodes of the triangles", self.cells.len(), self.body.len() * self.nodes_per_cell()),
-        ];
-        match lengths.into_iter().find(|(_, found, expected)| found != expected) {
-            Some((what, found, expected)) => Err(OutputError::Length { path: path.to_path_buf(), what, found, expected }),
-            None => Ok(()),
-        }
-    }
-
+impl Piece {
     fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        let (points, cells) = (self.points.len(), self.body.len());
-        let kind = if self.order == Order::P1 { VTK_TRIANGLE } else { VTK_QUADRATIC_TRIANGLE };
-        let shape = CellShape { count: cells, nodes: self.nodes_per_cell(), kind };
-        write_mesh(out, self.points.iter().copied(), self.cells.iter().map(|&node| node as i32), &shape)?;
+        let (points, cells) = (self.nodes.len(), self.parts.len());
+        let (kind, nodes) = match self.order {
+            Order::P1 => (VTK_TRIANGLE, 3),
+            Order::P2 => (VTK_QUADRATIC_TRIANGLE, 6),
+        };
+        let (places, connectivity) = (self.nodes.iter().map(|node| node.place), self.cells.iter().map(|&node| node as i32));
+        write_mesh(out, places, connectivity, &CellShape { count: cells, nodes, kind })?;
 
         writeln!(out, "<PointData Vectors=\"displacement\" Scalars=\"von_mises\">")?;
-        let displacement = self.displacement.iter().flat_map(|u| [u[0], u[1], 0.0]);
+        let displacement =
+            self.nodes.iter().flat_map(|node| [node.displacement[0], node.displacement[1], 0.0].map(f64::to_le_bytes));
         write_array(out, "displacement", 3, &[], 3 * points, displacement)?;
-        write_array(out, "stress", 4, &STRESS_COMPONENTS, 4 * points, self.stress.iter().flatten().copied())?;
-        write_array(out, "von_mises", 1, &[], points, self.von_mises.iter().copied())?;
-        if let Some(temperature) = self.temperature {
-            write_array(out, "temperature", 1, &[], points, temperature.iter().copied())?;
+        write_array(
+            out,
+            "stress",
+            4,
+            &STRESS_COMPONENTS,
+            4 * points,
+            self.nodes.iter().flat_map(|node| node.stress.map(f64::to_le_bytes)),
+        )?;
+        write_array(out, "von_mises", 1, &[], points, self.nodes.iter().map(|node| node.von_mises.to_le_bytes()))?;
+        if self.is_heated {
+            write_array(out, "temperature", 1, &[], points, self.nodes.iter().map(|node| node.temperature.to_le_bytes()))?;
         }
         writeln!(out, "</PointData>\n<CellData>")?;
-        write_array(out, "body", 1, &[], cells, self.body.iter().copied())?;
-        write_array(out, "part", 1, &[], cells, self.part.iter().copied())?;
-        write_array(out, "rank", 1, &[], cells, std::iter::repeat_n(self.rank, cells))?;
+        for (at, name) in ["body", "part"].into_iter().enumerate() {
+            write_array(out, name, 1, &[], cells, self.parts.iter().map(|numbers| numbers[at].to_le_bytes()))?;
+        }
+        write_array(out, "rank", 1, &[], cells, std::iter::repeat_n(self.rank.to_le_bytes(), cells))?;
         writeln!(out, "</CellData>\n</Piece>")
     }
 }
@@ -186,11 +181,11 @@ fn write_mesh(
 ) -> io::Result<()> {
     let (count, nodes) = (cells.count, cells.nodes);
     writeln!(out, "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{count}\">\n<Points>", points.len())?;
-    write_array(out, "Points", 3, &[], 3 * points.len(), points.flat_map(|x| [x[0], x[1], 0.0]))?;
+    write_array(out, "Points", 3, &[], 3 * points.len(), points.flat_map(|x| [x[0], x[1], 0.0].map(f64::to_le_bytes)))?;
     writeln!(out, "</Points>\n<Cells>")?;
-    write_array(out, "connectivity", 1, &[], count * nodes, connectivity)?;
-    write_array(out, "offsets", 1, &[], count, (1..=count).map(|cell| (cell * nodes) as i32))?;
-    write_array(out, "types", 1, &[], count, std::iter::repeat_n(cells.kind, count))?;
+    write_array(out, "connectivity", 1, &[], count * nodes, connectivity.map(i32::to_le_bytes))?;
+    write_array(out, "offsets", 1, &[], count, (1..=count).map(|cell| ((cell * nodes) as i32).to_le_bytes()))?;
+    write_array(out, "types", 1, &[], count, std::iter::repeat_n([cells.kind], count))?;
     writeln!(out, "</Cells>")
 }
 
@@ -220,14 +215,14 @@ fn declaration(tag: &str, kind: &str, name: &str, components: usize, labels: &[&
     text
 }
 
-/// Writes `count` numbers as base64, preceded by their size in bytes, in chunks that stay in the cache.
-fn write_array<T: Number>(
+/// Writes `count` numbers of so many bytes, low byte first, as base64, preceded by the size of all, in chunks that stay in the cache.
+fn write_array<const N: usize>(
     out: &mut impl Write,
     name: &str,
     components: usize,
     labels: &[&str],
     count: usize,
-    values: impl Iterator<Item = T>,
+    values: impl Iterator<Item = [u8; N]>,
 ) -> io::Result<()> {
     const CHUNK: usize = 3 << 13; // bytes; a multiple of 3 becomes base64 without padding
     let mut bytes = Vec::with_capacity(CHUNK + 8);
@@ -237,10 +232,15 @@ fn write_array<T: Number>(
         out.write_all(&text[..length])
     };
 
-    writeln!(out, "{} format=\"binary\">", declaration("DataArray", T::KIND, name, components, labels))?;
-    bytes.extend_from_slice(&((count * size_of::<T>()) as u64).to_le_bytes());
+    let kind = match N {
+        8 => "Float64",
+        4 => "Int32",
+        _ => "UInt8",
+    };
+    writeln!(out, "{} format=\"binary\">", declaration("DataArray", kind, name, components, labels))?;
+    bytes.extend_from_slice(&((count * N) as u64).to_le_bytes());
     for value in values {
-        value.append_to(&mut bytes);
+        bytes.extend_from_slice(&value);
         if bytes.len() >= CHUNK {
             encode(&bytes[..CHUNK], out)?;
             bytes.drain(..CHUNK);
@@ -249,28 +249,6 @@ fn write_array<T: Number>(
     encode(&bytes, out)?;
     writeln!(out, "\n</DataArray>")
 }
-
-/// A number as VTK stores it.
-trait Number: Copy {
-    /// VTK's name of the type.
-    const KIND: &'static str;
-    /// Appends the number, low byte first.
-    fn append_to(self, bytes: &mut Vec<u8>);
-}
-
-macro_rules! number {
-    ($kind:ty, $name:literal) => {
-        impl Number for $kind {
-            const KIND: &'static str = $name;
-            fn append_to(self, bytes: &mut Vec<u8>) {
-                bytes.extend_from_slice(&self.to_le_bytes());
-            }
-        }
-    };
-}
-number!(f64, "Float64");
-number!(i32, "Int32");
-number!(u8, "UInt8");
 
 /// Text as an XML attribute.
 fn escape(text: &str) -> String {
@@ -298,7 +276,7 @@ mod tests {
     fn arrays_survive_every_chunk_boundary() {
         for count in [0, 1, 2, 3_070, 3_071, 3_072, 10_000] {
             let mut text = Vec::new();
-            write_array(&mut text, "a", 1, &[], count, (0..count).map(|i| i as f64 / 3.0)).unwrap();
+            write_array(&mut text, "a", 1, &[], count, (0..count).map(|i| (i as f64 / 3.0).to_le_bytes())).unwrap();
             let text = String::from_utf8(text).unwrap();
             let values = doubles(&decoded(&text, "a"));
             assert!(values.len() == count && values.iter().enumerate().all(|(i, &value)| value == i as f64 / 3.0), "{count}");
@@ -309,53 +287,27 @@ mod tests {
     fn piece_holds_what_was_given() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("fields.vtu");
-        let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-        let piece = Piece {
-            points: &points,
-            cells: &[0, 1, 2],
-            order: Order::P1,
-            displacement: &points,
-            stress: &[[1.0, 2.0, 3.0, 4.0]; 3],
-            von_mises: &[5.0, 6.0, 7.0],
-            temperature: Some(&[20.0, -3.0, 1e3]),
-            body: &[9],
-            part: &[7],
-            rank: 4,
+        let node = |(place, von_mises, temperature): ([f64; 2], f64, f64)| PieceNode {
+            place,
+            displacement: place,
+            stress: [1.0, 2.0, 3.0, 4.0],
+            von_mises,
+            temperature,
         };
+        let nodes = [([0.0, 0.0], 5.0, 20.0), ([1.0, 0.0], 6.0, -3.0), ([0.0, 1.0], 7.0, 1e3)].map(node).into();
+        let (order, cells, parts) = (Order::P1, vec![0, 1, 2], vec![[9, 7]]);
+        let piece = Piece { order, nodes, cells, parts, is_heated: true, rank: 4 };
         write_piece(&path, &piece).unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
         assert_eq!(doubles(&decoded(&text, "displacement")), [0., 0., 0., 1., 0., 0., 0., 1., 0.]);
         assert_eq!(doubles(&decoded(&text, "stress")), [1.0, 2.0, 3.0, 4.0].repeat(3));
         assert_eq!(doubles(&decoded(&text, "temperature")), [20.0, -3.0, 1e3]);
+        assert_eq!(doubles(&decoded(&text, "von_mises")), [5.0, 6.0, 7.0]);
         assert_eq!(decoded(&text, "connectivity"), [0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]);
         assert_eq!(decoded(&text, "offsets"), [3, 0, 0, 0]);
         assert_eq!(decoded(&text, "types"), [VTK_TRIANGLE]);
         assert_eq!(["body", "part", "rank"].map(|name| decoded(&text, name)), [9, 7, 4].map(|number| vec![number, 0, 0, 0]));
         assert!(text.contains("ComponentName3=\"ZZ\"") && SIGNS.iter().all(|sign| text.contains(sign)));
-    }
-
-    #[test]
-    fn arrays_of_unequal_length_are_refused() {
-        let piece = Piece {
-            points: &[[0.0; 2]; 3],
-            cells: &[0, 1, 2],
-            order: Order::P2,
-            displacement: &[[0.0; 2]; 3],
-            stress: &[[0.0; 4]; 3],
-            von_mises: &[0.0; 3],
-            temperature: None,
-            body: &[0],
-            part: &[0],
-            rank: 0,
-        };
-        let folder = tempfile::tempdir().unwrap();
-        let refusal = write_piece(&folder.path().join("fields.vtu"), &piece).unwrap_err();
-        assert!(matches!(refusal, OutputError::Length { found: 3, expected: 6, .. }), "{refusal}");
-        let short = Piece { order: Order::P1, von_mises: &[0.0; 2], ..piece };
-        assert!(write_piece(&folder.path().join("fields.vtu"), &short).unwrap_err().to_string().contains("von Mises"));
-        let hot = Piece { order: Order::P1, temperature: Some(&[1.0]), ..piece };
-        assert!(write_piece(&folder.path().join("fields.vtu"), &hot).unwrap_err().to_string().contains("temperature"));
-        assert!(!folder.path().join("fields.vtu").exists());
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use crate::element::{Order, von_mises};
 use crate::mesh::lattice::{self, Triangle};
 use crate::output::plot::{ContactZoom, DrawnEdge, Facet};
-use crate::output::vtk::{Piece, write_parallel, write_piece};
+use crate::output::vtk::{Piece, PieceNode, write_parallel, write_piece};
 use crate::recovery::Evaluation;
 use crate::run::outcome::RunError;
 use std::collections::HashMap;
@@ -20,85 +20,51 @@ const COARSE: usize = 4;
 /// Writes `fields.vtu` on one rank, `fields.pvtu` and its pieces on several; every rank its own. `stress` is that of a part at a
 /// node.
 pub fn write(folder: &Path, found: &Evaluation, stress: impl Fn(usize, usize) -> [f64; 4]) -> Result<(), RunError> {
-    let Evaluation { problem, session, u, .. } = found;
+    let session = found.session;
     let name = |rank: usize| if session.size() == 1 { "fields.vtu".to_string() } else { format!("fields_{rank:04}.vtu") };
-    let piece = PieceMesh::new(found);
-    let points: Vec<[f64; 2]> = piece.places.clone();
-    let displacement: Vec<[f64; 2]> = piece.nodes.iter().map(|&[_, node]| u.at(node)).collect();
-    let stresses: Vec<[f64; 4]> = piece.nodes.iter().map(|&[part, node]| stress(part, node)).collect();
-    let mises: Vec<f64> = stresses.iter().map(|&s| von_mises(s)).collect();
-    let scene = &problem.scene;
-    let temperature: Option<Vec<f64>> = scene.is_heated().then(|| {
-        let at = |(&[part, _], x): (&[usize; 2], &[f64; 2])| scene.heat(part).map_or(0.0, |heat| heat.temperature.value(x));
-        piece.nodes.iter().zip(&piece.places).map(at).collect()
-    });
-    let file = folder.join(name(session.rank()));
-    write_piece(
-        &file,
-        &Piece {
-            points: &points,
-            cells: &piece.cells,
-            order: scene.order,
-            displacement: &displacement,
-            stress: &stresses,
-            von_mises: &mises,
-            temperature: temperature.as_deref(),
-            body: &piece.bodies,
-            part: &piece.parts,
-            rank: session.rank() as i32,
-        },
-    )?;
+    write_piece(&folder.join(name(session.rank())), &piece(found, stress))?;
     if session.size() > 1 && session.rank() == 0 {
         let pieces: Vec<String> = (0..session.size()).map(name).collect();
-        write_parallel(&folder.join("fields.pvtu"), &pieces, scene.is_heated())?;
+        write_parallel(&folder.join("fields.pvtu"), &pieces, found.problem.scene.is_heated())?;
     }
     Ok(())
 }
 
-/// The mesh of one piece of the files: nodes and cells of the macro triangles of one rank.
-struct PieceMesh {
-    /// Part and number of each node: one between two parts is there twice, for its stress has two values.
-    nodes: Vec<[usize; 2]>,
-    places: Vec<[f64; 2]>,
-    cells: Vec<u32>,
-    bodies: Vec<i32>,
-    parts: Vec<i32>,
-}
-
-impl PieceMesh {
-    fn new(Evaluation { problem, session, .. }: &Evaluation) -> Self {
-        let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
-        let (n, order) = (numbering.level.intervals, numbering.level.order);
-        let mut piece = Self { nodes: Vec::new(), places: Vec::new(), cells: Vec::new(), bodies: Vec::new(), parts: Vec::new() };
-        let mut known: HashMap<[usize; 2], u32> = HashMap::new();
-        for &triangle in problem.scene.partition.triangles_of(session.rank()) {
-            let numbers = numbering.triangle(mesh, triangle as usize);
-            let triangle_of = &mesh.triangles[triangle as usize];
-            let mut local = Vec::with_capacity(lattice::node_count(n));
-            for (i, j) in lattice::nodes(n) {
-                let node = [triangle_of.part as usize, numbers.node(i, j)];
-                let next = piece.nodes.len() as u32;
-                let inside = matches!(lattice::place(n, i, j), lattice::Place::Inside(_));
-                let at = if inside { next } else { *known.entry(node).or_insert(next) };
-                if at == next {
-                    let x = mesh.node_position(triangle as usize, numbering.level, (i, j));
-                    piece.nodes.push(node);
-                    piece.places.push([x.x, x.y]);
-                }
-                local.push(at);
+/// The piece of this rank: its macro triangles. A node between two parts is there twice, for its stress has two values.
+fn piece(Evaluation { problem, session, u, .. }: &Evaluation, stress: impl Fn(usize, usize) -> [f64; 4]) -> Piece {
+    let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
+    let (mesh, n, order) = (&scene.mesh, numbering.level.intervals, numbering.level.order);
+    let (nodes, cells, parts) = (Vec::new(), Vec::new(), Vec::new());
+    let mut piece = Piece { order, nodes, cells, parts, is_heated: scene.is_heated(), rank: session.rank() as i32 };
+    let mut known: HashMap<[usize; 2], u32> = HashMap::new();
+    for &triangle in scene.partition.triangles_of(session.rank()) {
+        let numbers = numbering.triangle(mesh, triangle as usize);
+        let [body, part] = [mesh.triangles[triangle as usize].body, mesh.triangles[triangle as usize].part];
+        let heat = scene.heat(part as usize);
+        let mut local = Vec::with_capacity(lattice::node_count(n));
+        for (i, j) in lattice::nodes(n) {
+            let node = [part as usize, numbers.node(i, j)];
+            let next = piece.nodes.len() as u32;
+            let inside = matches!(lattice::place(n, i, j), lattice::Place::Inside(_));
+            let at = if inside { next } else { *known.entry(node).or_insert(next) };
+            if at == next {
+                let x = mesh.node_position(triangle as usize, numbering.level, (i, j));
+                let (place, stress) = ([x.x, x.y], stress(node[0], node[1]));
+                let temperature = heat.map_or(0.0, |heat| heat.temperature.value(&place));
+                let (displacement, von_mises) = (u.at(node[1]), von_mises(stress));
+                piece.nodes.push(PieceNode { place, displacement, stress, von_mises, temperature });
             }
-            let [body, part] = [triangle_of.body, triangle_of.part].map(|number| number as i32);
-            for small in lattice::triangles(n, order) {
-                match order {
-                    Order::P1 => piece.cells.extend(small.nodes::<3>().map(|(i, j)| local[lattice::index(n, i, j)])),
-                    Order::P2 => piece.cells.extend(small.nodes::<6>().map(|(i, j)| local[lattice::index(n, i, j)])),
-                }
-                piece.bodies.push(body);
-                piece.parts.push(part);
-            }
+            local.push(at);
         }
-        piece
+        for small in lattice::triangles(n, order) {
+            match order {
+                Order::P1 => piece.cells.extend(small.nodes::<3>().map(|(i, j)| local[lattice::index(n, i, j)])),
+                Order::P2 => piece.cells.extend(small.nodes::<6>().map(|(i, j)| local[lattice::index(n, i, j)])),
+            }
+            piece.parts.push([body, part].map(|number| number as i32));
+        }
     }
+    piece
 }
 
 /// Facets for the figure of the deformed bodies, coarse enough to draw, from all ranks. **Collective**

@@ -1,0 +1,304 @@
+//! Tables: all contacts, the points of one contact boundary, and load steps, with a row each.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use super::{SIGNS, quoted};
+use crate::output::error::OutputError;
+use crate::output::summary::{Status, StepSummary, Summary};
+
+/// Name of the table in a result folder.
+pub const CONTACTS: &str = "contacts.csv";
+
+/// A resultant below this share of the force is rounding, as that of a pressure all around: it has no direction.
+const ROUNDING: f64 = 1e-6;
+
+const COLUMNS: &str = "name,boundary_1,boundary_2,force,direction_x,direction_y,x,y,width,pressure_max,trust,verdict";
+
+/// Writes `contacts.csv`: a line with the names of the columns, and one for each contact of the summary, given by its name and its
+/// two boundaries. What is not known, or does not apply, is left empty.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn write_contacts<'a>(
+    path: &Path,
+    contacts: impl Iterator<Item = (&'a str, &'a [String; 2])>,
+    summary: &Summary,
+) -> Result<(), OutputError> {
+    write_table(path, |out| contact_rows(out, contacts, summary))
+}
+
+fn contact_rows<'a>(
+    out: &mut impl Write,
+    contacts: impl Iterator<Item = (&'a str, &'a [String; 2])>,
+    summary: &Summary,
+) -> io::Result<()> {
+    writeln!(out, "{COLUMNS}")?;
+    for (name, between) in contacts {
+        let Some(contact) = summary.contact.get(name) else { continue };
+        let least = ROUNDING * contact.force.unwrap_or(0.0).abs();
+        let size = contact.resultant.map(|[x, y]| x.hypot(y)).filter(|size| *size > least);
+        let along = |axis: usize| Some(contact.resultant?[axis] / size?);
+        let place = |axis: usize| contact.place.map(|place| place[axis]);
+        let numbers = [contact.force, along(0), along(1), place(0), place(1), contact.width(), contact.pressure_max];
+        write!(out, "{},{},{}", quoted(name), quoted(&between[0]), quoted(&between[1]))?;
+        for number in numbers {
+            write!(out, ",{}", number_cell(number))?;
+        }
+        let trust = contact.judged.trust.map_or(String::new(), |trust| trust.to_string());
+        writeln!(out, ",{trust},{}", quoted(contact.judged.verdict.as_deref().unwrap_or_default()))?;
+    }
+    Ok(())
+}
+
+/// The solution at one point of the contact boundary; signs as in [`SIGNS`].
+///
+/// Points come in order of `s`; where λ jumps, two points with the same `s` carry both values.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactPoint {
+    /// Arc length from the first end of the contact boundary.
+    pub s: f64,
+    /// Position on the contact boundary.
+    pub x: f64,
+    /// Position on the contact boundary.
+    pub y: f64,
+    /// Unit normal from body 1 to body 2.
+    pub nx: f64,
+    /// Unit normal from body 1 to body 2.
+    pub ny: f64,
+    /// Contact pressure λ (stress).
+    pub lambda: f64,
+    /// Gap of the deformed bodies (length).
+    pub gap: f64,
+    /// Normal displacement n · u of body 1 at the corresponding point (length).
+    pub un_1: f64,
+    /// Normal displacement n · u of body 2.
+    pub un_2: f64,
+    /// Normal stress n · σ n on the trace of body 1 (stress).
+    pub sigma_1: f64,
+    /// Normal stress n · σ n on the trace of body 2.
+    pub sigma_2: f64,
+}
+
+/// Writes `contact_NAME.csv`: [`SIGNS`] as lines that start with `# `, the names of the columns, one line per point.
+///
+/// Numbers are the shortest that read back as the same double.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn write_contact(path: &Path, points: &[ContactPoint]) -> Result<(), OutputError> {
+    write_table(path, |out| point_rows(out, points))
+}
+
+fn point_rows(out: &mut impl Write, points: &[ContactPoint]) -> io::Result<()> {
+    for line in SIGNS.iter() {
+        writeln!(out, "# {line}")?;
+    }
+    writeln!(out, "s,x,y,nx,ny,lambda,gap,un_1,un_2,sigma_1,sigma_2")?;
+    for p in points {
+        write!(out, "{:?},{:?},{:?},{:?},{:?},{:?},", p.s, p.x, p.y, p.nx, p.ny, p.lambda)?;
+        writeln!(out, "{:?},{:?},{:?},{:?},{:?}", p.gap, p.un_1, p.un_2, p.sigma_1, p.sigma_2)?;
+    }
+    Ok(())
+}
+
+/// A cell of the table with the name of its column; empty where nothing is known.
+type RowValue = (String, Option<f64>);
+
+/// Writes `steps.csv`: a line with the names of the columns, as `summary.json` names the values, and one line per step. What a
+/// step does not know is left empty.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn write_steps(path: &Path, steps: &[StepSummary]) -> Result<(), OutputError> {
+    write_table(path, |out| step_rows(out, steps))
+}
+
+fn step_rows(out: &mut impl Write, steps: &[StepSummary]) -> io::Result<()> {
+    let rows: Vec<Vec<RowValue>> = steps.iter().map(cells).collect();
+    // A step that could not be solved knows fewer values than the others.
+    let Some(columns) = rows.iter().max_by_key(|row| row.len()) else { return Ok(()) };
+    let names: Vec<String> = columns.iter().map(|(name, _)| quoted(name)).collect();
+    writeln!(out, "step,status,iterations,{}", names.join(","))?;
+    for (step, row) in steps.iter().zip(&rows) {
+        let status = match step.status {
+            Status::Converged => "converged",
+            Status::Unresolved => "unresolved",
+            Status::NotConverged | Status::Interrupted => "not_converged",
+        };
+        write!(out, "{},{status},{}", step.step, step.iterations.iter().sum::<usize>())?;
+        for (name, _) in columns {
+            let value = row.iter().find(|(own, _)| own == name).and_then(|(_, value)| *value);
+            write!(out, ",{}", number_cell(value))?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+/// Everything of a step that is a number.
+fn cells(step: &StepSummary) -> Vec<RowValue> {
+    let mut all: Vec<RowValue> = step.factors.iter().map(|(name, &value)| (format!("factors.{name}"), Some(value))).collect();
+    for (name, contact) in &step.contact {
+        all.push((format!("contact.{name}.force"), contact.force));
+        all.extend(vector(&format!("contact.{name}.resultant"), ["x", "y"], contact.resultant));
+        all.push((format!("contact.{name}.width"), contact.width));
+        all.push((format!("contact.{name}.pressure_max"), contact.pressure_max));
+    }
+    for (name, support) in &step.support {
+        all.extend(vector(&format!("support.{name}.reaction"), ["x", "y"], support.reaction));
+    }
+    for (name, rigid) in &step.rigid {
+        all.extend(vector(&format!("rigid.{name}.motion"), ["ux", "uy", "angle"], rigid.motion));
+        all.extend(vector(&format!("rigid.{name}.force"), ["x", "y"], rigid.force));
+        all.push((format!("rigid.{name}.moment"), rigid.moment));
+    }
+    for (name, probe) in &step.probe {
+        all.extend(vector(&format!("probe.{name}.u"), ["x", "y"], probe.u));
+        all.extend(vector(&format!("probe.{name}.stress"), ["xx", "yy", "xy"], probe.stress));
+    }
+    let whole = [
+        ("displacement_max", step.displacement_max),
+        ("energy", step.energy),
+        ("external_work", step.external_work),
+        ("seconds", step.seconds),
+    ];
+    all.extend(whole.map(|(name, value)| (name.into(), value)));
+    all
+}
+
+/// The components of a vector, each with its own name behind that of the vector.
+fn vector<const N: usize>(name: &str, axes: [&str; N], vector: Option<[f64; N]>) -> [RowValue; N] {
+    std::array::from_fn(|k| (format!("{name}.{}", axes[k]), vector.map(|vector| vector[k])))
+}
+
+/// Writes a table by its lines.
+fn write_table(path: &Path, rows: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), OutputError> {
+    let write = |file: File| {
+        let mut out = BufWriter::new(file);
+        rows(&mut out).and_then(|()| out.flush())
+    };
+    File::create(path).and_then(write).map_err(OutputError::io("write", path))
+}
+
+/// A number as a cell of a table; nothing stands there if it is not known, or not finite.
+fn number_cell(number: Option<f64>) -> String {
+    number.filter(|number| number.is_finite()).map_or(String::new(), |number| format!("{number:?}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::summary::{ContactSummary, ContactTrust, StepContact};
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_pressure_all_around_has_no_direction() {
+        let cells = |resultant: [f64; 2]| {
+            let contact = ContactSummary { force: Some(2.0), resultant: Some(resultant), ..ContactSummary::default() };
+            let summary = Summary { contact: [("c".to_owned(), contact)].into(), ..Summary::default() };
+            let between = ["a".to_owned(), "b".to_owned()];
+            let mut text = Vec::new();
+            contact_rows(&mut text, [("c", &between)].into_iter(), &summary).unwrap();
+            let text = String::from_utf8(text).unwrap();
+            let row: Vec<String> = text.lines().nth(1).expect("a row").split(',').map(String::from).collect();
+            [row[4].clone(), row[5].clone()]
+        };
+        assert_eq!(cells([0.0, -1e-9]), ["", ""]);
+        assert_eq!(cells([0.0, -1e-3]).map(|cell| cell.parse::<f64>().expect("a number")), [0.0, -1.0]);
+    }
+
+    proptest! {
+        #[test]
+        fn a_row_reads_back_as_the_contact_was(
+            force in proptest::array::uniform2(-1e9..1e9), place in proptest::array::uniform2(-1e-9..1e9),
+            closed in proptest::collection::vec(0.0..1.0, 0..4), trust in proptest::option::of(proptest::bool::ANY)
+        ) {
+            let contact = ContactSummary {
+                force: Some(f64::hypot(force[0], force[1])),
+                resultant: Some(force),
+                place: Some(place),
+                closed: Some(closed.iter().map(|width| [3.0, 3.0 + width]).collect()),
+                judged: ContactTrust { trust, verdict: Some("not trusted: \"a\"; b".into()), ..ContactTrust::default() },
+                ..ContactSummary::default()
+            };
+            let summary = Summary { contact: [("a,b".to_owned(), contact.clone())].into(), ..Summary::default() };
+            let between = ["one.rim".to_owned(), "two \"x\"".to_owned()];
+            let mut text = Vec::new();
+            contact_rows(&mut text, [("a,b", &between), ("none", &between)].into_iter(), &summary).unwrap();
+            let text = String::from_utf8(text).unwrap();
+            let lines: Vec<&str> = text.lines().collect();
+            prop_assert_eq!(lines.len(), 2, "what is not solved has no row");
+            let rest = lines[1].strip_prefix("\"a,b\",one.rim,\"two \"\"x\"\"\",").expect("names");
+            let cells: Vec<&str> = rest.splitn(9, ',').collect();
+            let number = |at: usize| cells[at].parse::<f64>().expect("a number");
+            prop_assert_eq!(number(0), contact.force.unwrap());
+            prop_assert!((number(1) * number(0) - force[0]).abs() <= 1e-6 && (number(2) * number(0) - force[1]).abs() <= 1e-6);
+            prop_assert_eq!([number(3), number(4), number(5)], [place[0], place[1], contact.width().unwrap()]);
+            prop_assert_eq!((cells[6], cells[7]), ("", trust.map_or("", |trust| if trust { "true" } else { "false" })));
+            prop_assert_eq!(cells[8], "\"not trusted: \"\"a\"\"; b\"");
+        }
+    }
+
+    #[test]
+    fn numbers_read_back_as_they_were() {
+        let point = ContactPoint {
+            s: 1.0 / 3.0,
+            x: -0.0,
+            y: 1e-300,
+            nx: 0.1 + 0.2,
+            ny: 1.0,
+            lambda: std::f64::consts::PI * 1e20,
+            gap: -5e-324,
+            un_1: 7.0,
+            un_2: f64::MAX,
+            sigma_1: f64::MIN_POSITIVE,
+            sigma_2: -1.5e-9,
+        };
+        let mut text = Vec::new();
+        point_rows(&mut text, &[point, point]).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        let mut lines = text.lines().skip_while(|line| line.starts_with("# "));
+        assert_eq!(lines.next(), Some("s,x,y,nx,ny,lambda,gap,un_1,un_2,sigma_1,sigma_2"));
+        let row: Vec<f64> = lines.next().unwrap().split(',').map(|number| number.parse().unwrap()).collect();
+        let p = point;
+        assert_eq!(row, [p.s, p.x, p.y, p.nx, p.ny, p.lambda, p.gap, p.un_1, p.un_2, p.sigma_1, p.sigma_2]);
+        assert_eq!(lines.count(), 1);
+        assert!(text.lines().all(|line| line.len() < 260));
+    }
+
+    #[test]
+    fn signs_are_stated_before_the_table() {
+        let mut text = Vec::new();
+        point_rows(&mut text, &[]).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        assert!(SIGNS.iter().all(|sign| text.contains(&format!("# {sign}\n"))));
+        assert_eq!(text.lines().count(), SIGNS.len() + 1);
+    }
+
+    fn step(number: usize) -> StepSummary {
+        let seam = StepContact { force: Some(0.1 * number as f64), width: Some(2.0), ..StepContact::default() };
+        StepSummary {
+            step: number,
+            factors: [("press".into(), 0.5 * number as f64)].into(),
+            status: Status::Converged,
+            contact: [("a,b".into(), seam)].into(),
+            iterations: vec![7, 5],
+            ..StepSummary::default()
+        }
+    }
+
+    #[test]
+    fn a_step_is_a_row_and_what_it_does_not_know_is_empty() {
+        let unsolved =
+            StepSummary { contact: Default::default(), status: Status::NotConverged, iterations: Vec::new(), ..step(1) };
+        let mut text = Vec::new();
+        step_rows(&mut text, &[unsolved, step(2)]).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(lines[0].starts_with("step,status,iterations,factors.press,\"contact.a,b.force\""), "{text}");
+        assert_eq!(lines[1], "1,not_converged,0,0.5,,,,,,,,,");
+        assert_eq!(lines[2], "2,converged,12,1.0,0.2,,,2.0,,,,,");
+    }
+}
