@@ -69,15 +69,10 @@ fn of_contact(folder: &Path, page: &ReportPage, name: &str, is_first: bool) -> S
         drawing(folder, &format!("deformed_{name}_{number}.svg"), &with(words, if number == 1 { more } else { "." }))
     });
     let follow = ", and the normal pressures of both bodies on it: they follow λ where the meshes are fine enough.";
+    let gap = format!("Gap between {one} and {two} after deformation");
     let along = [
         ("pressure", with("Contact pressure λ".into(), follow) + &exactness(page, name, is_first)),
-        (
-            "gap",
-            with(
-                format!("Gap between {one} and {two} after deformation"),
-                ": zero where they touch, positive where they are apart.",
-            ),
-        ),
+        ("gap", with(gap, ": zero where they touch, positive where they are apart.")),
         ("displacement", format!("Normal displacements, positive from {one} to {two}.")),
     ];
     zooms.chain(along.iter().map(|(file, words)| drawing(folder, &format!("{file}_{name}.svg"), words))).collect()

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::drawings::drawing;
 use super::numbers::{count, number, trust_word};
-use super::page::{ReportPage, long_table};
+use super::page::{ReportPage, TableColumn, long_table, rows_of};
 use super::verdict::word;
 use crate::output::markup::{UNKNOWN, subsection};
 use crate::output::summary::{AccuracyStep, BoundaryIteration, OuterIteration, StepSummary};
@@ -19,11 +19,8 @@ pub fn history(folder: &Path, page: &ReportPage) -> String {
     let mut text = String::new();
     if let Some(steps) = &summary.steps {
         text += &subsection("Load steps");
-        text += &drawing(
-            folder,
-            "steps.svg",
-            "Forces, widths and largest pressures over the load steps; hollow marks have not converged.",
-        );
+        let words = "Forces, widths and largest pressures over the load steps; hollow marks have not converged.";
+        text += &drawing(folder, "steps.svg", words);
         text += &load_steps(steps, &summary.units);
     }
     if let Some(meshes) = &summary.accuracy {
@@ -74,49 +71,46 @@ fn load_steps(steps: &[StepSummary], units: &Units) -> String {
 }
 
 fn meshes_table(meshes: &[AccuracyStep]) -> String {
-    let row = |(at, mesh): (usize, &AccuracyStep)| {
-        vec![
-            (at + 1).to_string(),
-            count(Some(mesh.macro_triangles as u64)),
-            mesh.refine.to_string(),
-            count(Some(mesh.unknowns as u64)),
-            number(mesh.energy.as_ref().and_then(|goal| goal.estimate)),
-            format!("{:.2}", mesh.seconds),
-        ]
-    };
-    let header = ["mesh", "macro triangles", "refined", "unknowns", "energy norm", "seconds so far"];
-    long_table(&header, meshes.iter().enumerate().map(row).collect(), "summary.json")
+    let columns: [TableColumn<(usize, &AccuracyStep)>; 6] = [
+        ("mesh", &|(at, _)| (at + 1).to_string()),
+        ("macro triangles", &|(_, mesh)| count(Some(mesh.macro_triangles as u64))),
+        ("refined", &|(_, mesh)| mesh.refine.to_string()),
+        ("unknowns", &|(_, mesh)| count(Some(mesh.unknowns as u64))),
+        ("energy norm", &|(_, mesh)| number(mesh.energy.as_ref().and_then(|goal| goal.estimate))),
+        ("seconds so far", &|(_, mesh)| format!("{:.2}", mesh.seconds)),
+    ];
+    let (header, rows) = rows_of(&columns, meshes.iter().enumerate());
+    long_table(&header, rows, "summary.json")
 }
 
 fn boundaries(all: &[BoundaryIteration]) -> String {
-    let row = |one: &BoundaryIteration| {
-        vec![
-            one.iteration.to_string(),
-            number(one.length),
-            number(one.moved),
-            number(one.du),
-            one.flipped.map_or(UNKNOWN.into(), |flipped| flipped.to_string()),
-        ]
-    };
-    let header = ["boundary", "length", "moves next by", "change of the displacement", "pressures that changed state"];
-    long_table(&header, all.iter().map(row).collect(), "summary.json")
+    let columns: [TableColumn<&BoundaryIteration>; 5] = [
+        ("boundary", &|one| one.iteration.to_string()),
+        ("length", &|one| number(one.length)),
+        ("moves next by", &|one| number(one.moved)),
+        ("change of the displacement", &|one| number(one.du)),
+        ("pressures that changed state", &|one| size(one.flipped)),
+    ];
+    let (header, rows) = rows_of(&columns, all.iter());
+    long_table(&header, rows, "summary.json")
 }
 
 fn passes(all: &[OuterIteration]) -> String {
-    let size = |count: Option<usize>| count.map_or(UNKNOWN.into(), |count| count.to_string());
-    let row = |pass: &OuterIteration| {
-        vec![
-            pass.iteration.to_string(),
-            size(pass.active),
-            size(pass.added),
-            size(pass.released),
-            size(pass.krylov_iterations),
-            number(pass.residual),
-            number(pass.max_penetration),
-            number(pass.du),
-        ]
-    };
-    let header =
-        ["pass", "active", "added", "released", "iterations", "residual", "largest penetration", "change of the displacement"];
-    long_table(&header, all.iter().map(row).collect(), "summary.json")
+    let columns: [TableColumn<&OuterIteration>; 8] = [
+        ("pass", &|pass| pass.iteration.to_string()),
+        ("active", &|pass| size(pass.active)),
+        ("added", &|pass| size(pass.added)),
+        ("released", &|pass| size(pass.released)),
+        ("iterations", &|pass| size(pass.krylov_iterations)),
+        ("residual", &|pass| number(pass.residual)),
+        ("largest penetration", &|pass| number(pass.max_penetration)),
+        ("change of the displacement", &|pass| number(pass.du)),
+    ];
+    let (header, rows) = rows_of(&columns, all.iter());
+    long_table(&header, rows, "summary.json")
+}
+
+/// A small count for a cell.
+fn size(count: Option<usize>) -> String {
+    count.map_or(UNKNOWN.into(), |count| count.to_string())
 }

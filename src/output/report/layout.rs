@@ -38,15 +38,10 @@ fn html(folder: &Path, page: &ReportPage) -> String {
     let links: String = shown.iter().map(|(place, name, _)| format!("<a href=\"#{place}\">{}</a>\n", escape(name))).collect();
     let body: String = shown.iter().map(|(place, name, text)| section(place, name) + text).collect();
     let kind = format!("Case {}, mezha {}", summary.case, summary.mezha);
-    document(
-        &format!("{title}: {}", verdict::word(summary.status)),
-        &format!(
-            "<header>\n<p class=\"kind\">{}</p>\n<h1>{}</h1>\n</header>\n{}<nav>\n{links}</nav>\n{body}",
-            escape(&kind),
-            escape(title),
-            verdict::verdict(page)
-        ),
-    )
+    let (kind, heading, verdict) = (escape(&kind), escape(title), verdict::verdict(page));
+    let header = format!("<header>\n<p class=\"kind\">{kind}</p>\n<h1>{heading}</h1>\n</header>\n");
+    let name = format!("{title}: {}", verdict::word(summary.status));
+    document(&name, &format!("{header}{verdict}<nav>\n{links}</nav>\n{body}"))
 }
 
 #[cfg(test)]

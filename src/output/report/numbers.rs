@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::page::{ReportPage, long_table};
+use super::page::{ReportPage, TableColumn, long_table, rows_of};
 use crate::output::data::CONTACTS;
 use crate::output::markup::{NOT_TRUSTED, TRUSTED, UNKNOWN, UNTOLD, paragraph, subsection, table};
 use crate::output::plot::{number_text, number_to};
-use crate::output::summary::{ProbeSummary, RigidSummary, Summary};
+use crate::output::summary::{ContactSummary, ProbeSummary, RigidSummary, Summary};
 
 /// Intervals of one contact that are named one by one.
 const MOST_INTERVALS: usize = 6;
@@ -55,23 +55,20 @@ pub fn contacts(page: &ReportPage) -> String {
     if summary.contact.is_empty() {
         return String::new();
     }
-    let row = |(name, [one, two]): &(String, [String; 2])| {
-        let contact = summary.contact.get(name)?;
-        Some(vec![
-            name.clone(),
-            format!("{one}, {two}"),
-            exact(contact.force),
-            exact(contact.pressure_max),
-            number(contact.width()),
-            number(contact.length),
-            trust_word(contact.judged.trust),
-        ])
-    };
-    let rows: Vec<Vec<String>> = page.told().filter_map(row).collect();
     let (length, units) = (summary.units.length(), &summary.units);
     let (force, largest) = (units.resultant().of("force ∫λ ds"), units.stress().of("largest λ"));
     let [closed_length, whole] = ["closed length", "whole length"].map(|what| length.of(what));
-    let header = ["contact", "between", &force, &largest, &closed_length, &whole, "pressure"];
+    let columns: [TableColumn<(&String, &[String; 2], &ContactSummary)>; 7] = [
+        ("contact", &|(name, ..)| (*name).clone()),
+        ("between", &|(_, bodies, _)| bodies.join(", ")),
+        (&force, &|(.., contact)| exact(contact.force)),
+        (&largest, &|(.., contact)| exact(contact.pressure_max)),
+        (&closed_length, &|(.., contact)| number(contact.width())),
+        (&whole, &|(.., contact)| number(contact.length)),
+        ("pressure", &|(.., contact)| trust_word(contact.judged.trust)),
+    ];
+    let told = page.told().filter_map(|(name, bodies)| Some((name, bodies, summary.contact.get(name)?)));
+    let (header, rows) = rows_of(&columns, told);
     let all = summary.contacts_in_words().map(|words| {
         paragraph(&format!("{words}.")) + &paragraph(&format!("These are the worst and the largest; all stand in {CONTACTS}."))
     });
@@ -85,25 +82,16 @@ fn closed(summary: &Summary) -> String {
     for (name, contact) in summary.contacts_told() {
         let (arcs, places) =
             (contact.closed.as_deref().unwrap_or_default(), contact.closed_points.as_deref().unwrap_or_default());
+        // What is rounding beside the contact is zero.
+        let tiny = 1e-9 * contact.length.unwrap_or(0.0);
+        let place = |end: [f64; 2]| {
+            let [x, y] = end.map(|x| number(Some(if x.abs() < tiny { 0.0 } else { x })));
+            format!("({x}, {y})")
+        };
         for (at, [from, to]) in arcs.iter().enumerate().take(MOST_INTERVALS) {
-            let place = |end: usize| match places.get(at) {
-                Some(ends) => {
-                    // What is rounding beside the contact is zero.
-                    let tiny = 1e-9 * contact.length.unwrap_or(0.0);
-                    let [x, y] = ends[end].map(|x| number(Some(if x.abs() < tiny { 0.0 } else { x })));
-                    format!("({x}, {y})")
-                }
-                None => UNKNOWN.into(),
-            };
-            rows.push(vec![
-                name.to_owned(),
-                (at + 1).to_string(),
-                number_text(*from),
-                number_text(*to),
-                number_text(to - from),
-                place(0),
-                place(1),
-            ]);
+            let numbers = [*from, *to, to - from].map(number_text);
+            let ends = places.get(at).map_or([UNKNOWN; 2].map(String::from), |ends| ends.map(place));
+            rows.push([vec![name.to_owned(), (at + 1).to_string()], numbers.into(), ends.into()].concat());
         }
         left += arcs.len().saturating_sub(MOST_INTERVALS);
     }

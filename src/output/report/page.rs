@@ -51,6 +51,15 @@ pub fn long_table(header: &[&str], rows: Vec<Vec<String>>, place: &str) -> Strin
     table(header, &shown) + &paragraph(&format!("{left} rows are left out here; all of them stand in {place}."))
 }
 
+/// A column of a table: its head, and its cell in the row of a thing.
+pub type TableColumn<'a, T> = (&'a str, &'a dyn Fn(&T) -> String);
+
+/// The heads of a table, and a row for each thing.
+pub fn rows_of<'a, T>(columns: &[TableColumn<'a, T>], things: impl Iterator<Item = T>) -> (Vec<&'a str>, Vec<Vec<String>>) {
+    let row = |thing: T| columns.iter().map(|(_, cell)| cell(&thing)).collect();
+    (columns.iter().map(|(head, _)| *head).collect(), things.map(row).collect())
+}
+
 /// A value that a case expects.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ExpectedValue {

@@ -4,7 +4,7 @@ use super::numbers::{number, trust_word};
 use super::page::{ReportPage, long_table};
 use crate::output::markup::{UNKNOWN, paragraph};
 use crate::output::plot::number_to;
-use crate::output::summary::{BodySummary, Status};
+use crate::output::summary::{BodySummary, Status, capital};
 
 /// A line on the bodies, and a table of all of them, the largest stress first.
 pub fn stresses(page: &ReportPage) -> String {
@@ -32,13 +32,6 @@ pub fn stresses(page: &ReportPage) -> String {
     let table = long_table(&header, rows.collect(), "summary.json");
     let words = summary.stresses_in_words().filter(|_| summary.status == Status::Converged);
     words.map_or(String::new(), |words| paragraph(&format!("{}.", capital(&words)))) + &table
-}
-
-/// With a capital letter at its beginning; it begins with a letter of ASCII.
-fn capital(words: &str) -> String {
-    let mut words = words.to_owned();
-    words.get_mut(..1).into_iter().for_each(str::make_ascii_uppercase);
-    words
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! What can be trusted of a result, and how large its errors are thought to be.
 
 use super::numbers::{number, trust_word};
-use super::page::ReportPage;
+use super::page::{ReportPage, TableColumn, rows_of};
 use crate::output::markup::{UNKNOWN, list, paragraph, subsection, table};
 use crate::output::plot::number_text;
-use crate::output::summary::{Status, ZoneSummary};
+use crate::output::summary::{ContactEstimate, ContactSummary, Status, ZoneSummary};
 
 /// The word on each contact, and what was warned of.
 pub fn trust(page: &ReportPage) -> String {
@@ -13,31 +13,18 @@ pub fn trust(page: &ReportPage) -> String {
     if summary.status != Status::Converged && summary.contact.is_empty() {
         text += &paragraph("There is no solution, so there is nothing to trust.");
     }
-    let row = |(name, _): &(String, [String; 2])| {
-        let contact = summary.contact.get(name)?;
-        let estimate = summary.estimate.contact.get(name);
-        Some(vec![
-            name.clone(),
-            trust_word(contact.judged.trust),
-            trust_word(contact.judged.trust_force),
-            number(estimate.and_then(|estimate| estimate.lambda)),
-            number(estimate.and_then(|estimate| estimate.force)),
-            number(contact.inf_sup),
-            number(contact.oscillation),
-            number(contact.closed_edges),
-        ])
-    };
-    let rows: Vec<Vec<String>> = page.told().filter_map(row).collect();
-    let header = [
-        "contact",
-        "pressure",
-        "force",
-        "error of λ",
-        "error of the force",
-        "inf-sup constant",
-        "oscillation",
-        "edges in contact",
+    let told = page.told().filter_map(|(name, _)| Some((name, summary.contact.get(name)?, summary.estimate.contact.get(name))));
+    let columns: [TableColumn<(&String, &ContactSummary, Option<&ContactEstimate>)>; 8] = [
+        ("contact", &|(name, ..)| (*name).clone()),
+        ("pressure", &|(_, contact, _)| trust_word(contact.judged.trust)),
+        ("force", &|(_, contact, _)| trust_word(contact.judged.trust_force)),
+        ("error of λ", &|(.., estimate)| number(estimate.and_then(|estimate| estimate.lambda))),
+        ("error of the force", &|(.., estimate)| number(estimate.and_then(|estimate| estimate.force))),
+        ("inf-sup constant", &|(_, contact, _)| number(contact.inf_sup)),
+        ("oscillation", &|(_, contact, _)| number(contact.oscillation)),
+        ("edges in contact", &|(_, contact, _)| number(contact.closed_edges)),
     ];
+    let (header, rows) = rows_of(&columns, told);
     text += &table(&header, &rows);
     if !page.warnings.is_empty() {
         text += &subsection("Warnings");
@@ -52,22 +39,23 @@ pub fn estimate(page: &ReportPage) -> String {
     let energy = summary.estimate.energy.map(|error| {
         paragraph(&format!("The displacement of all bodies has an estimated error of {} in the energy norm.", number_text(error)))
     });
-    let mut rows = Vec::new();
-    for (name, contact) in summary.contacts_told() {
-        let counting = contact.zones.iter().filter(|zone| zone.counts(&contact.zones));
-        rows.extend(counting.map(|zone| row(name, zone)));
-    }
-    let header = [
-        "contact",
-        "zone, s",
-        "share of the force",
-        "λ in its middle",
-        "λ all over it",
-        "largest λ",
-        "its force",
-        "edges",
-        "segments",
+    let counting = summary.contacts_told().flat_map(|(name, contact)| {
+        contact.zones.iter().filter(|zone| zone.counts(&contact.zones)).map(move |zone| (name, zone))
+    });
+    let ends = |[from, to]: [f64; 2]| format!("{} to {}", number_text(from), number_text(to));
+    let peak = |zone: &ZoneSummary| if zone.singular == Some(true) { "without bound".into() } else { number(zone.peak) };
+    let columns: [TableColumn<(&str, &ZoneSummary)>; 9] = [
+        ("contact", &|(name, _)| (*name).to_owned()),
+        ("zone, s", &|(_, zone)| zone.ends.map_or(UNKNOWN.into(), ends)),
+        ("share of the force", &|(_, zone)| number(zone.share)),
+        ("λ in its middle", &|(_, zone)| number(zone.lambda)),
+        ("λ all over it", &|(_, zone)| number(zone.whole)),
+        ("largest λ", &|(_, zone)| peak(zone)),
+        ("its force", &|(_, zone)| number(zone.force)),
+        ("edges", &|(_, zone)| number(zone.edges)),
+        ("segments", &|(_, zone)| zone.segments.map_or(UNKNOWN.into(), |segments| segments.to_string())),
     ];
+    let (header, rows) = rows_of(&columns, counting);
     let zones = table(&header, &rows);
     if zones.is_empty() && energy.is_none() {
         return String::new();
@@ -77,19 +65,4 @@ pub fn estimate(page: &ReportPage) -> String {
                  largest λ has an estimate of its own, which counts where the peak is at an end, as on a plane of symmetry; there \
                  is none where λ grows without bound.";
     energy.unwrap_or_default() + &if zones.is_empty() { zones } else { paragraph(words) + &zones }
-}
-
-fn row(name: &str, zone: &ZoneSummary) -> Vec<String> {
-    let peak = if zone.singular == Some(true) { "without bound".into() } else { number(zone.peak) };
-    vec![
-        name.to_owned(),
-        zone.ends.map_or(UNKNOWN.into(), |[from, to]| format!("{} to {}", number_text(from), number_text(to))),
-        number(zone.share),
-        number(zone.lambda),
-        number(zone.whole),
-        peak,
-        number(zone.force),
-        number(zone.edges),
-        zone.segments.map_or(UNKNOWN.into(), |segments| segments.to_string()),
-    ]
 }

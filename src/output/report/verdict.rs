@@ -1,10 +1,10 @@
 //! What everybody wants to know first.
 
 use super::numbers::number;
-use super::page::{ExpectedValue, ReportPage};
+use super::page::{ExpectedValue, ReportPage, TableColumn, rows_of};
 use crate::output::markup::{HOLDS, MISSED, UNKNOWN, escape, folded, paragraph, subsection, table};
 use crate::output::plot::number_text;
-use crate::output::summary::{GoalSummary, MOST_TOLD, Status, Summary, WORST, listed};
+use crate::output::summary::{GoalSummary, MOST_TOLD, Status, Summary, WORST, capital, clauses, listed};
 
 /// The verdict in a word or two.
 pub fn word(status: Status) -> &'static str {
@@ -26,13 +26,9 @@ pub fn verdict(page: &ReportPage) -> String {
         Status::Converged => "open",
         _ => "bad",
     };
-    format!(
-        "<div class=\"verdict {class}\">\n<strong>{}</strong>\n<p>{}</p>\n</div>\n{rest}{}{}",
-        word(summary.status),
-        escape(&sentence(summary)),
-        expected(page.expected),
-        goals(summary),
-    )
+    let (word, sentence) = (word(summary.status), escape(&sentence(summary)));
+    let tables = expected(page.expected) + &goals(summary);
+    format!("<div class=\"verdict {class}\">\n<strong>{word}</strong>\n<p>{sentence}</p>\n</div>\n{rest}{tables}")
 }
 
 /// Contacts whose pressures cannot be trusted, and those of which nothing tells.
@@ -77,26 +73,6 @@ fn not_converged(reason: &str) -> &'static str {
     }
 }
 
-/// A reason in its parts, which semicolons outside of brackets part.
-fn clauses(reason: &str) -> Vec<String> {
-    let mut depth = 0_i32;
-    let parts = reason.split(|letter| {
-        depth += match letter {
-            '(' => 1,
-            ')' => -1,
-            _ => 0,
-        };
-        letter == ';' && depth == 0
-    });
-    parts.map(|part| part.trim().to_owned()).filter(|part| !part.is_empty()).collect()
-}
-
-/// With a capital letter at its beginning.
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
-}
-
 /// The error of a value by what is allowed: 0 where anything is, infinite where it is not known.
 fn excess(value: &ExpectedValue) -> f64 {
     let known = |most: f64| value.error.filter(|error| !error.is_nan()).map_or(f64::INFINITY, |error| error / most);
@@ -104,29 +80,27 @@ fn excess(value: &ExpectedValue) -> f64 {
 }
 
 /// The values that the case expects; of many the worst, and all of them where the reader asks for them.
-fn expected(values: &[ExpectedValue]) -> String {
+fn expected<'a>(values: &'a [ExpectedValue]) -> String {
     if values.is_empty() {
         return String::new();
     }
-    let row = |value: &ExpectedValue| {
-        let holds = match value.tolerance {
-            Some(_) if excess(value) <= 1.0 => HOLDS,
-            Some(_) => MISSED,
-            None => UNKNOWN,
-        };
-        let known = |text: &str| if text.is_empty() { UNKNOWN.into() } else { text.to_owned() };
-        vec![
-            value.name.clone(),
-            known(&value.expected),
-            known(&value.found),
-            number(value.error),
-            number(value.tolerance),
-            holds.into(),
-        ]
+    let holds = |value: &ExpectedValue| match value.tolerance {
+        Some(_) if excess(value) <= 1.0 => HOLDS,
+        Some(_) => MISSED,
+        None => UNKNOWN,
     };
-    let shown = |values: &[&ExpectedValue]| {
-        let rows: Vec<Vec<String>> = values.iter().map(|value| row(value)).collect();
-        table(&["", "expected", "reached", "relative error", "allowed", ""], &rows)
+    let known = |text: &str| if text.is_empty() { UNKNOWN.into() } else { text.to_owned() };
+    let columns: [TableColumn<&'a ExpectedValue>; 6] = [
+        ("", &|value| value.name.clone()),
+        ("expected", &|value| known(&value.expected)),
+        ("reached", &|value| known(&value.found)),
+        ("relative error", &|value| number(value.error)),
+        ("allowed", &|value| number(value.tolerance)),
+        ("", &|value| holds(value).into()),
+    ];
+    let shown = |values: &[&'a ExpectedValue]| {
+        let (header, rows) = rows_of(&columns, values.iter().copied());
+        table(&header, &rows)
     };
     let (all, title) = (values.iter().collect::<Vec<_>>(), subsection("Expected values"));
     if all.len() <= MOST_TOLD {
@@ -146,21 +120,15 @@ fn expected(values: &[ExpectedValue]) -> String {
 /// The accuracy that the case asks for.
 fn goals(summary: &Summary) -> String {
     let Some(last) = summary.accuracy.as_ref().and_then(|steps| steps.last()) else { return String::new() };
-    let mut all = vec![("energy norm".to_owned(), &last.energy)];
-    for (name, contact) in &last.contact {
-        let goals = [
-            ("force", &contact.force),
-            ("pressure", &contact.pressure),
-            ("largest pressure", &contact.peak),
-            ("ends", &contact.ends),
-        ];
-        all.extend(goals.map(|(what, goal)| (format!("{what} of {name}"), goal)));
+    let of_contact = [("force", "force"), ("pressure", "pressure"), ("peak", "largest pressure"), ("ends", "ends")];
+    let of_probe = [("displacement", "displacement"), ("stress", "stress")];
+    let mut all: Vec<(String, &GoalSummary)> = last.energy.iter().map(|goal| ("energy norm".to_owned(), goal)).collect();
+    for (name, goals) in &last.contact {
+        all.extend(of_contact.iter().filter_map(|(key, what)| Some((format!("{what} of {name}"), goals.get(*key)?))));
     }
-    for (name, probe) in &last.probe {
-        let goals = [("displacement", &probe.displacement), ("stress", &probe.stress)];
-        all.extend(goals.map(|(what, goal)| (format!("{what} at {name}"), goal)));
+    for (name, goals) in &last.probe {
+        all.extend(of_probe.iter().filter_map(|(key, what)| Some((format!("{what} at {name}"), goals.get(*key)?))));
     }
-    let mut all: Vec<(String, &GoalSummary)> = all.into_iter().filter_map(|(name, goal)| Some((name, goal.as_ref()?))).collect();
     let row = |(name, goal): &(String, &GoalSummary)| {
         let holds = if goal.estimate.is_some_and(|estimate| estimate <= goal.asked) { HOLDS } else { MISSED };
         vec![name.clone(), number_text(goal.asked), number(goal.estimate), number(goal.error), holds.into()]
@@ -202,13 +170,5 @@ mod tests {
         assert!(all.contains("<summary>All 11 expected values</summary>") && all.matches("<tr>").count() == 12, "{all}");
         many[8].error = Some(1e-3);
         assert!(expected(&many).contains("1 of 11 values is missed."));
-    }
-
-    #[test]
-    fn a_reason_is_parted_outside_of_brackets() {
-        let reason = "the set stands; contact a (inf-sup 0.05; oscillation .2); take fewer";
-        assert_eq!(clauses(reason), ["the set stands", "contact a (inf-sup 0.05; oscillation .2)", "take fewer"]);
-        assert!(clauses("").is_empty());
-        assert_eq!((capital("äs"), capital("")), ("Äs".into(), String::new()));
     }
 }

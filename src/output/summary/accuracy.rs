@@ -20,13 +20,17 @@ pub struct AccuracyStep {
     /// The displacement in the energy norm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub energy: Option<GoalSummary>,
-    /// By name of the contact.
+    /// By name of the contact: `force` (∫λ ds), `pressure` (λ over the middle of what presses, root mean square), `peak` (the
+    /// largest λ) and `ends` (the ends of contact, by its width).
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub contact: BTreeMap<String, ContactGoals>,
-    /// By name of the probe.
+    pub contact: BTreeMap<String, GoalsByWord>,
+    /// By name of the probe: `displacement` and `stress`, each by its own size.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub probe: BTreeMap<String, ProbeGoals>,
+    pub probe: BTreeMap<String, GoalsByWord>,
 }
+
+/// Goals of one contact or probe by the words that the case has for them.
+pub type GoalsByWord = BTreeMap<String, GoalSummary>;
 
 /// All solves on one refinement of a mesh.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -35,34 +39,6 @@ pub struct Cycles {
     pub unknowns: usize,
     /// Krylov iterations, each with one cycle of the preconditioner.
     pub iterations: usize,
-}
-
-/// What is asked of a contact.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ContactGoals {
-    /// ∫λ ds.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub force: Option<GoalSummary>,
-    /// λ over the middle of what presses, root mean square.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub pressure: Option<GoalSummary>,
-    /// The largest λ.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub peak: Option<GoalSummary>,
-    /// The ends of contact, by its width.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub ends: Option<GoalSummary>,
-}
-
-/// What is asked at a probe.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct ProbeGoals {
-    /// The displacement, by its own size.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub displacement: Option<GoalSummary>,
-    /// The stress, by its own size.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub stress: Option<GoalSummary>,
 }
 
 /// A relative error.

@@ -15,6 +15,9 @@ pub struct BodySummary {
     /// The node, undeformed.
     #[serde(deserialize_with = "numbers")]
     pub place: Option<[f64; 2]>,
+    /// Its displacement, for figures.
+    #[serde(skip)]
+    pub displacement: [f64; 2],
     /// The part that has it; the key is missing if the body has one part.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<String>,

@@ -10,20 +10,18 @@ mod machine;
 mod numbers;
 mod passes;
 mod provenance;
-mod solver;
 mod steps;
 mod thickness;
 mod told;
 
-pub use accuracy::{AccuracyStep, ContactGoals, Cycles, GoalSummary, ProbeGoals};
+pub use accuracy::{AccuracyStep, Cycles, GoalSummary};
 pub use body::BodySummary;
 pub use contact::{ContactEstimate, ContactSummary, ContactTrust, ZoneSummary};
 pub use machine::{machine, whole_machine};
-pub use passes::{BoundaryIteration, OuterIteration};
+pub use passes::{BoundaryIteration, CoarseSolveSummary, OuterIteration, SolverSummary};
 pub use provenance::Provenance;
-pub use solver::{CoarseSolveSummary, SolverSummary};
 pub use steps::{StepContact, StepSummary};
-pub use told::{MOST_TOLD, MOST_WITH_FIGURES, WORST, alike, lines_alike, listed};
+pub use told::{MOST_TOLD, MOST_WITH_FIGURES, WORST, alike, capital, clauses, lines_alike, listed};
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,4 +1,4 @@
-//! What the solution procedure keeps of its steps, in the terms of `summary.json`.
+//! What the solution procedure keeps of its steps and of the linear solver, in the terms of `summary.json`.
 
 use crate::procedure::{BoundaryStep, Pass};
 use serde::{Deserialize, Serialize};
@@ -39,6 +39,38 @@ pub struct BoundaryIteration {
     pub du: Option<f64>,
     /// Multipliers that changed state since the boundary before.
     pub flipped: Option<usize>,
+}
+
+/// The linear solver.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SolverSummary {
+    /// `fieldsplit` or `direct`.
+    pub name: Option<String>,
+    /// What solved it, in words, such as `fieldsplit (multigrid F-cycle)`.
+    pub krylov: Option<String>,
+    /// One number per linear solve.
+    pub iterations: Vec<usize>,
+    /// Solves on coarser meshes before, the coarsest first.
+    pub coarse: Vec<CoarseSolveSummary>,
+    /// Iterations on all meshes, each by its unknowns, in iterations on the last one.
+    pub cycles: Option<f64>,
+    /// Relative residual of the scaled augmented system.
+    pub residual: Option<f64>,
+    /// Relative residual of the system as it stands.
+    pub plain_residual: Option<f64>,
+    /// The BLAS in use.
+    pub blas: Option<String>,
+}
+
+/// A coarser mesh that was solved first.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CoarseSolveSummary {
+    /// Refinements of the macro mesh.
+    pub refine: usize,
+    /// Displacement unknowns.
+    pub unknowns: usize,
+    /// One number per linear solve.
+    pub iterations: Vec<usize>,
 }
 
 impl From<&Pass> for OuterIteration {

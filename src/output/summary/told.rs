@@ -45,6 +45,26 @@ pub fn listed<S: AsRef<str>>(names: &[S]) -> String {
     if few < names.len() { format!("{named} and {} others", names.len() - few) } else { named }
 }
 
+/// The clauses of a reason, which semicolons outside of brackets part.
+pub fn clauses(reason: &str) -> Vec<&str> {
+    let mut depth = 0_i32;
+    let parts = reason.split(|letter| {
+        depth += match letter {
+            '(' => 1,
+            ')' => -1,
+            _ => 0,
+        };
+        letter == ';' && depth == 0
+    });
+    parts.map(str::trim).filter(|part| !part.is_empty()).collect()
+}
+
+/// With a capital letter at its beginning.
+pub fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
 impl Summary {
     /// Names of those contacts of which this is true.
     pub fn named(&self, is: impl Fn(&ContactSummary) -> bool) -> Vec<&str> {
@@ -173,6 +193,14 @@ mod tests {
         let few = lines_alike(["support", "supports"], all.take(3));
         assert_eq!(few.iter().map(|(count, _)| count).sum::<usize>(), 3);
         assert_eq!(few[2].1, "support s2: mean angle");
+    }
+
+    #[test]
+    fn a_reason_is_parted_outside_of_brackets() {
+        let reason = "the set stands; contact a (inf-sup 0.05; oscillation .2); take fewer";
+        assert_eq!(clauses(reason), ["the set stands", "contact a (inf-sup 0.05; oscillation .2)", "take fewer"]);
+        assert!(clauses("").is_empty() && clauses("one") == ["one"]);
+        assert_eq!((capital("äs"), capital("")), ("Äs".into(), String::new()));
     }
 
     #[test]

@@ -58,22 +58,18 @@ fn step(goals: &[Goal], mesh: &AdaptedMesh) -> AccuracyStep {
     };
     for (place, (goal, &estimate)) in goals.iter().zip(&mesh.errors).enumerate() {
         let error = mesh.true_errors.get(place).copied().flatten();
-        *place_of(&goal.quantity, &mut step) = Some(GoalSummary { estimate, error, asked: goal.tolerance });
+        let told = GoalSummary { estimate, error, asked: goal.tolerance };
+        let places = match (&goal.quantity, goal.quantity.of()) {
+            (_, None) => {
+                step.energy = Some(told);
+                continue;
+            }
+            (Quantity::Displacement(_) | Quantity::Stress(_), Some(probe)) => step.probe.entry(probe.into()),
+            (_, Some(contact)) => step.contact.entry(contact.into()),
+        };
+        places.or_default().insert(goal.quantity.word().into(), told);
     }
     step
-}
-
-/// Where a step tells of a quantity.
-fn place_of<'a>(quantity: &Quantity, step: &'a mut AccuracyStep) -> &'a mut Option<GoalSummary> {
-    match quantity {
-        Quantity::Energy => &mut step.energy,
-        Quantity::Force(name) => &mut step.contact.entry(name.clone()).or_default().force,
-        Quantity::Pressure(name) => &mut step.contact.entry(name.clone()).or_default().pressure,
-        Quantity::Peak(name) => &mut step.contact.entry(name.clone()).or_default().peak,
-        Quantity::Ends(name) => &mut step.contact.entry(name.clone()).or_default().ends,
-        Quantity::Displacement(probe) => &mut step.probe.entry(probe.name.clone()).or_default().displacement,
-        Quantity::Stress(probe) => &mut step.probe.entry(probe.name.clone()).or_default().stress,
-    }
 }
 
 #[cfg(test)]
