@@ -4,10 +4,11 @@ use clap::Parser;
 use clap::error::ErrorKind as UsageKind;
 use mezha::arguments::{Arguments, CheckArguments, Command, FileKind, NewArguments, RunArguments, Study, nearest_command};
 use mezha::case::{Inputs, schema};
+use mezha::output::summary::Status;
 use mezha::petsc::{
     self, Session, TellingAllocator, end_all_ranks, errors_are_final, share_memory_among_threads, when_memory_is_refused,
 };
-use mezha::run::{self, Outcome, RunError, RunOptions, interruption};
+use mezha::run::{self, RunError, RunOptions, interruption};
 use mezha::study::{self, StudyError};
 use std::io::{ErrorKind, Write, stderr, stdout};
 use std::process::exit;
@@ -96,7 +97,7 @@ fn run_case(arguments: &RunArguments, started: Instant) -> i32 {
     let solved = solve(arguments, started, &session);
     interruption::abandon();
     match solved {
-        Ok(outcome) => end(session, outcome),
+        Ok(status) => end(session, status),
         Err(RunError::Failed(words)) => {
             interruption::abandon_alone();
             let code = print(&RunError::Failed(words));
@@ -113,7 +114,7 @@ fn run_case(arguments: &RunArguments, started: Instant) -> i32 {
 }
 
 /// Reads the case and solves it. **Collective**
-fn solve(arguments: &RunArguments, started: Instant, session: &Session) -> Result<Outcome, RunError> {
+fn solve(arguments: &RunArguments, started: Instant, session: &Session) -> Result<Status, RunError> {
     let (case, overrides) = (&arguments.case.file(), &arguments.case.overrides);
     let inputs = arguments.inputs.as_deref().map(Inputs::parse).transpose();
     let inputs = inputs.map_err(|words| RunError::Input(format!("--inputs: {words}")))?;
@@ -124,11 +125,11 @@ fn solve(arguments: &RunArguments, started: Instant, session: &Session) -> Resul
 }
 
 /// Ends PETSc and MPI after a run whose result is written. **Collective**
-fn end(session: Session, outcome: Outcome) -> i32 {
+fn end(session: Session, status: Status) -> i32 {
     match session.end() {
-        Ok(()) => match outcome {
-            Outcome::Converged => 0,
-            Outcome::NotConverged | Outcome::Unresolved => 3,
+        Ok(()) => match status {
+            Status::Converged => 0,
+            Status::NotConverged | Status::Unresolved | Status::Interrupted => 3,
         },
         Err(error) => {
             let words = "the result is written and whole, but what PETSc was asked to say at its end is not";

@@ -56,14 +56,9 @@ pub fn refuse_too_large<E: Into<RunError>>(
 pub fn told(need: f64, of_macro_mesh: f64) -> (String, Option<String>) {
     let read: Read = &|path| std::fs::read_to_string(path).ok();
     let left = of_machine(read).min(of_process(read));
-    let whole = need + BY_PROCESS;
-    let words =
-        format!("memory: some {} on one rank, and {} more for each further one", size(whole), size(of_macro_mesh + BY_PROCESS));
-    let warning = format!(
-        "a run takes some {} of memory, and {} are left on this machine: it would be refused here",
-        size(whole),
-        size(left)
-    );
+    let [whole, more, there] = [need + BY_PROCESS, of_macro_mesh + BY_PROCESS, left].map(size);
+    let words = format!("memory: some {whole} on one rank, and {more} more for each further one");
+    let warning = format!("a run takes some {whole} of memory, and {there} are left on this machine: it would be refused here");
     (words, (need > left).then_some(warning))
 }
 
@@ -121,7 +116,7 @@ fn of_process(read: Read) -> f64 {
 }
 
 /// The first number after a word at the beginning of a line; nothing if it is none, such as `unlimited`.
-fn value(text: &str, key: &str) -> Option<f64> {
+pub fn value(text: &str, key: &str) -> Option<f64> {
     text.lines().find_map(|line| line.strip_prefix(key))?.split_whitespace().next()?.parse().ok()
 }
 

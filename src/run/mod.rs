@@ -1,6 +1,6 @@
 //! From a case to its result.
 //!
-//! In comes a checked case, out comes a folder with its result, and an [`Outcome`] that becomes the exit code. `reading` makes a scene
+//! In comes a checked case, out comes a folder with its result, and a [`Status`] that becomes the exit code. `reading` makes a scene
 //! of the files, `result` has it solved and writes the folder, with what `summary` and `verdict` say of the solution; `telling` is
 //! what is printed on the way, and what a signal leaves. `checking` has the commands that solve nothing, `accuracy` what is said of
 //! an accuracy, `memory` whether there is enough of it. How the program solves is none of its business: it names twelve items of
@@ -72,13 +72,14 @@ pub use checking::draw_case;
 pub use checking::{Checked, check, check_file};
 pub use checking::{FirstCase, first_case, path_from};
 pub use checking::{info, version};
-pub use outcome::{Outcome, RunError, out_of_memory_remedy};
+pub use outcome::{RunError, out_of_memory_remedy};
 pub use reading::read_case;
 pub use run_options::RunOptions;
 pub use telling::interruption;
 
 use crate::case::Case;
 use crate::discretisation::Scene;
+use crate::output::summary::Status;
 use crate::petsc::Session;
 use reading::options::refuse_options;
 use reading::origin::{self, ResultOrigin};
@@ -96,7 +97,7 @@ use telling::stages::Stages;
 ///
 /// # Errors
 /// [`RunError`] if there is no result at all; nothing is left on the disk then.
-pub fn run(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
+pub fn run(case: &Case, options: &RunOptions, session: &Session) -> Result<Status, RunError> {
     let started = start(case, options, session);
     progress::end();
     started.map_err(|error| {
@@ -105,7 +106,7 @@ pub fn run(case: &Case, options: &RunOptions, session: &Session) -> Result<Outco
     })
 }
 
-fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome, RunError> {
+fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Status, RunError> {
     refuse_options(session)?;
     let origin = ResultOrigin::new(case, session);
     let files = claim_folder(case, options, &origin, session)?;
@@ -113,7 +114,7 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Outcome
     let report = Report::new(case, options, session);
     let stages = Rc::new(Stages::new(session)?);
     report.start(case);
-    verdict::warnings::turns::far_turns(case).iter().for_each(|words| report.warn(words));
+    verdict::warnings::before::far_turns(case).iter().for_each(|words| report.warn(words));
     let (scene, origin) = read_scene(case, options, origin, &stages, &report, session)?;
     let run = Run { case, options, session, stages, report, files, origin, draws: true, true_errors: RefCell::default() };
     if !case.steps.is_empty() {
@@ -133,6 +134,7 @@ fn claim_folder(case: &Case, options: &RunOptions, origin: &ResultOrigin, sessio
 }
 
 /// A run on its way.
+#[derive(Clone)]
 struct Run<'a> {
     case: &'a Case,
     options: &'a RunOptions,
@@ -169,6 +171,6 @@ fn read_scene(
     let origin = Arc::new(origin);
     interruption::keep_origin(origin.clone());
     let mesh = reading::input::parse_mesh(case, &bytes, session)?;
-    verdict::warnings::slits::slits(&mesh).iter().for_each(|words| report.warn(words));
+    verdict::warnings::before::slits(&mesh).iter().for_each(|words| report.warn(words));
     Ok((reading::scene::spread(case, mesh, session)?, origin))
 }

@@ -11,31 +11,17 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// forecast.
 static FORECAST: AtomicU64 = AtomicU64::new(0);
 
-/// How a run ended; becomes the exit code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outcome {
-    /// Converged: 0.
-    Converged,
-    /// Not converged, a mechanism, or an expected value missed that must hold: 3.
-    NotConverged,
-    /// Solved on a mesh, or contact boundaries, that cannot hold what the case says: 3.
-    Unresolved,
-}
-
 /// Why there is no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{0}")]
 pub enum RunError {
     /// The input cannot be used, on every rank alike: 2.
-    #[error("{0}")]
     Input(String),
     /// The same, in words that begin with a key; the caller puts the case file before them.
-    #[error("{0}")]
     Key(String),
     /// Somebody has changed the input, or has put another result where this one belongs; on every rank alike: 1.
-    #[error("{0}")]
     Overtaken(String),
     /// PETSc, MPI or the disk failed, perhaps on this rank alone: 1.
-    #[error("{0}")]
     Failed(String),
 }
 

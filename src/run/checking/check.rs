@@ -7,17 +7,15 @@ use crate::element::{Heat, Order, Plane};
 use crate::mesh::MacroMesh;
 use crate::output::summary::lines_alike;
 use crate::procedure::Procedure;
-use crate::run::accuracy;
 use crate::run::checking::acting_lines::acting_lines;
 use crate::run::checking::proposals::{proposed_contacts, proposed_supports};
-use crate::run::memory;
 use crate::run::outcome::RunError;
-use crate::run::reading::known::check_pressures;
+use crate::run::reading::checks::check_pressures;
 use crate::run::reading::{origin, scene};
 use crate::run::telling::report::contact_lines;
+use crate::run::verdict::warnings::before::{far_turns, slits};
 use crate::run::verdict::warnings::idle::idle;
-use crate::run::verdict::warnings::slits::slits;
-use crate::run::verdict::warnings::turns::far_turns;
+use crate::run::{accuracy, memory};
 use std::path::Path;
 
 /// Names that a pattern stands for which are told.
@@ -68,15 +66,9 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     check_pressures(case, &at_rest.contacts).map_err(RunError::Key)?;
     let triangles = scene.mesh.triangles.len() * at_rest.numbering.level.triangles_per_edge().pow(2);
     let order = if scene.order == Order::P1 { "P1" } else { "P2" };
-    let mut lines = vec![
-        format!("{}: {}", case.name, case.title),
-        format!(
-            "mesh: {} macro triangles, {triangles} {order} triangles after {} refinements, {} unknowns of displacement",
-            scene.mesh.triangles.len(),
-            scene.refine,
-            2 * at_rest.numbering.node_count()
-        ),
-    ];
+    let (whole, refine, unknowns) = (scene.mesh.triangles.len(), scene.refine, 2 * at_rest.numbering.node_count());
+    let words = format!("{triangles} {order} triangles after {refine} refinements, {unknowns} unknowns of displacement");
+    let mut lines = vec![format!("{}: {}", case.name, case.title), format!("mesh: {whole} macro triangles, {words}")];
     lines.extend(case.matched.iter().map(matched));
     lines.extend(body_lines(&scene.bodies));
     lines.extend(contact_lines(&at_rest.contacts));

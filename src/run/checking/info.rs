@@ -10,11 +10,6 @@ pub fn info(session: &Session) -> String {
 
 /// Versions of mezha, by its commit too, of PETSc and of MPI; neither of these needs to have started.
 pub fn version() -> String {
-    format!(
-        "mezha {}, commit {COMMIT}\nPETSc {}, {}-bit indices\nMPI   {}",
-        env!("CARGO_PKG_VERSION"),
-        versions::petsc(),
-        versions::index_bits(),
-        versions::mpi(),
-    )
+    let (own, petsc, bits, mpi) = (env!("CARGO_PKG_VERSION"), versions::petsc(), versions::index_bits(), versions::mpi());
+    format!("mezha {own}, commit {COMMIT}\nPETSc {petsc}, {bits}-bit indices\nMPI   {mpi}")
 }

@@ -4,9 +4,8 @@
 //! ranks, with its origin. All names are resolved, and what cannot be solved is refused with file, key, value and remedy: on every
 //! rank alike, since rank 0 alone reads and all work on its bytes.
 
+pub(crate) mod checks;
 pub(crate) mod input;
-pub(crate) mod known;
-mod means;
 mod names;
 pub(crate) mod options;
 pub(crate) mod origin;

@@ -18,37 +18,29 @@ pub struct Names<'a> {
 }
 
 impl Names<'_> {
-    fn error(&self, key: &str, words: &str) -> String {
-        format!("{}: {key}: {words}", self.case.file.display())
-    }
-
-    /// Words for each name that the mesh does not have, and for each body that the case does not.
+    /// Words for each name that the mesh does not have, and for each body that the case does not; they begin with the file, all other
+    /// errors here with the key.
     pub fn wrong(&self) -> Vec<String> {
         let mut wrong: Vec<String> = self.check_bodies().err().into_iter().collect();
         for (key, boundaries) in self.used() {
             let on_mesh = boundaries.iter().filter(|name| !key.starts_with("contact.") || !self.case.writes_tool_of(name));
             wrong.extend(on_mesh.filter_map(|name| self.check_boundary(&key, name).err()));
         }
-        wrong
+        wrong.into_iter().map(|words| format!("{}: {words}", self.case.file.display())).collect()
     }
 
     fn check_bodies(&self) -> Result<(), String> {
         let known = || self.mesh.parts.iter().map(|part| &part.name);
         for (key, name) in self.case.bodies.iter().flat_map(surfaces_of) {
             if !known().any(|other| other == name) {
-                return Err(self.error(
-                    &key,
-                    &format!("no physical surface \"{}\": {}", Quote(name), instead(&self.mesh.file, name, known())),
-                ));
+                let instead = instead(&self.mesh.file, name, known());
+                return Err(format!("{key}: no physical surface \"{}\": {instead}", Quote(name)));
             }
         }
         for name in known() {
             if !self.case.bodies.iter().flat_map(|body| &body.parts).any(|part| part.name == *name) {
-                let words = format!(
-                    "missing, but {} has the physical surface \"{name}\"; give its young and poisson",
-                    self.mesh.file.display()
-                );
-                return Err(self.error(&format!("body.{name}"), &words));
+                let words = format!("has the physical surface \"{name}\"; give its young and poisson");
+                return Err(format!("body.{name}: missing, but {} {words}", self.mesh.file.display()));
             }
         }
         Ok(())
@@ -74,12 +66,11 @@ impl Names<'_> {
             return Ok(());
         }
         if is_inside {
-            let words =
-                format!("\"{name}\" lies between two parts of a body, where nothing can act; only [geometry] may name it");
-            return Err(self.error(key, &words));
+            let words = "lies between two parts of a body, where nothing can act; only [geometry] may name it";
+            return Err(format!("{key}: \"{name}\" {words}"));
         }
         let known = self.mesh.boundaries.iter().map(|boundary| &boundary.name);
-        Err(self.error(key, &format!("no physical curve \"{}\": {}", Quote(name), instead(&self.mesh.file, name, known))))
+        Err(format!("{key}: no physical curve \"{}\": {}", Quote(name), instead(&self.mesh.file, name, known)))
     }
 
     /// A boundary that stays rigid lies on one body, and nothing else touches it.
@@ -89,15 +80,14 @@ impl Names<'_> {
             let edges = plate.on.iter().filter_map(|name| self.mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
             let pieces: BTreeSet<usize> = edges.map(|&edge| self.mesh.piece_beside(edge)).collect();
             if pieces.len() > 1 {
-                let words = format!("lies on {} bodies or pieces of one; give each a load of its own", pieces.len());
-                return Err(self.error(&key, &words));
+                return Err(format!("{key}: lies on {} bodies or pieces of one; give each a load of its own", pieces.len()));
             }
             let pressed = |pair: &&Pair| {
                 pair.between.iter().flat_map(|name| self.case.curves_of(name)).any(|name| plate.on.contains(&name))
             };
             if let Some(pair) = self.case.contacts.iter().find(pressed) {
-                let words = format!("contact.{} is there, too; a boundary that stays rigid is no side of a contact", pair.name);
-                return Err(self.error(&key, &words));
+                let words = "is there, too; a boundary that stays rigid is no side of a contact";
+                return Err(format!("{key}: contact.{} {words}", pair.name));
             }
         }
         Ok(())
@@ -107,12 +97,10 @@ impl Names<'_> {
     pub fn check_unions(&self) -> Result<(), String> {
         let clash = self.case.unions.iter().find(|union| self.mesh.boundary(&union.name).is_some());
         clash.map_or(Ok(()), |union| {
-            let words = format!(
-                "the side \"{}\" of several curves has the name of a physical curve of {}; rename that one",
-                union.name,
-                self.mesh.file.display()
-            );
-            Err(self.error("contact", &words))
+            let (name, file) = (&union.name, self.mesh.file.display());
+            Err(format!(
+                "contact: the side \"{name}\" of several curves has the name of a physical curve of {file}; rename that one"
+            ))
         })
     }
 
@@ -128,16 +116,13 @@ impl Names<'_> {
             if let [body] = found[..] {
                 bodies.push(body);
             } else {
-                let words = format!("\"{name}\" lies on {} bodies; name each body's part by itself in the mesh", found.len());
-                return Err(self.error(&key, &words));
+                let words = "name each body's part by itself in the mesh";
+                return Err(format!("{key}: \"{name}\" lies on {} bodies; {words}", found.len()));
             }
         }
         if bodies.len() == 2 && bodies[0] == bodies[1] {
-            let words = format!(
-                "both sides lie on body \"{}\"; contact of a body with itself is not modelled",
-                self.mesh.bodies[bodies[0]]
-            );
-            return Err(self.error(&key, &words));
+            let name = &self.mesh.bodies[bodies[0]];
+            return Err(format!("{key}: both sides lie on body \"{name}\"; contact of a body with itself is not modelled"));
         }
         Ok(())
     }
@@ -158,7 +143,7 @@ pub fn unknown_part(case: &Case, bytes: &[u8]) -> Option<String> {
     let mut parts = case.bodies.iter().filter(|body| body.has_parts()).flat_map(surfaces_of);
     let (key, name) = parts.find(|(_, name)| !surfaces.contains(name))?;
     let instead = instead(&case.mesh.file, name, surfaces.iter());
-    Some(format!("{}: {key}: no physical surface \"{}\": {instead}", case.file.display(), Quote(name)))
+    Some(format!("{key}: no physical surface \"{}\": {instead}", Quote(name)))
 }
 
 /// The physical surfaces of a body: the key of each in the case, and its name.

@@ -26,7 +26,7 @@ pub struct ResultOrigin {
     /// As the summary tells it.
     pub provenance: Provenance,
     /// The resolved case, as it is written beside the summary.
-    case: String,
+    pub case: String,
     /// Bytes of the mesh, if they are copied; on rank 0.
     mesh: Option<Vec<u8>>,
 }
@@ -54,11 +54,6 @@ impl ResultOrigin {
             date: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
         };
         Self { provenance, case: case.resolved(), mesh: None }
-    }
-
-    /// The resolved case, as it is written beside the summary.
-    pub fn case(&self) -> &str {
-        &self.case
     }
 
     /// The same with the bytes of the mesh file, on rank 0, for a result in the folder `out`.

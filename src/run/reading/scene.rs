@@ -9,8 +9,7 @@ use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, touching_surfa
 use crate::petsc::Session;
 use crate::procedure::Procedure;
 use crate::run::outcome::RunError;
-use crate::run::reading::known::check_exact;
-use crate::run::reading::means::check_means;
+use crate::run::reading::checks::{check_exact, check_means};
 use crate::run::reading::names::{Names, together, unknown_part};
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -32,25 +31,25 @@ pub fn read_mesh_file(case: &Case) -> Result<Vec<u8>, String> {
 /// # Errors
 /// Words with file, key, value and remedy.
 pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
+    let in_file = |words: String| format!("{}: {words}", case.file.display());
     let mesh = parse_joined(bytes, &case.mesh.file, joined(case));
-    let mut mesh = mesh.map_err(|error| unknown_part(case, bytes).unwrap_or_else(|| error.to_string()))?;
+    let mut mesh = mesh.map_err(|error| unknown_part(case, bytes).map_or_else(|| error.to_string(), in_file))?;
     mesh.set_plane(case.plane).map_err(|error| error.to_string())?;
     let names = Names { case, mesh: &mesh };
     let wrong = names.wrong();
     if !wrong.is_empty() {
         return Err(together(&wrong));
     }
-    names.check_unions()?;
-    names.check_plates()?;
+    names.check_unions().and_then(|()| names.check_plates()).map_err(in_file)?;
     case.unions.iter().for_each(|union| mesh.unite(&union.name, &union.curves));
     let names = Names { case, mesh: &mesh };
     for pair in &case.contacts {
-        names.check_sides(&pair.name, &pair.between)?;
+        names.check_sides(&pair.name, &pair.between).map_err(in_file)?;
     }
     for geometry in &case.geometries {
         mesh.bend(&geometry.name, &geometry.curves, &geometry.curve).map_err(|error| error.to_string())?;
     }
-    completed(case, mesh).map_err(|words| format!("{}: {words}", case.file.display()))
+    completed(case, mesh).map_err(in_file)
 }
 
 /// A mesh that has the names of its case, with tools, shapes and points, and checked.
@@ -170,14 +169,9 @@ fn add_grades(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
     for grade in &case.mesh.grades {
         let [x, y] = grade.point;
         mesh.grade(Point::new(x, y), grade.ratio).map_err(|nearest| {
-            format!(
-                "mesh.grade.points: [{}, {}] is no vertex of {}; the nearest is [{}, {}]: name that, or draw a point there",
-                Rounded(x),
-                Rounded(y),
-                mesh.file.display(),
-                nearest.x,
-                nearest.y
-            )
+            let ([x, y], file) = ([x, y].map(Rounded), mesh.file.display());
+            let words = format!("the nearest is [{}, {}]: name that, or draw a point there", nearest.x, nearest.y);
+            format!("mesh.grade.points: [{x}, {y}] is no vertex of {file}; {words}")
         })?;
     }
     Ok(())

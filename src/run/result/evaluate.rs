@@ -4,21 +4,16 @@ use crate::output::summary::{EstimateSummary, Status, Summary};
 use crate::output::{CONTACTS, ContactPoint, write_contacts};
 use crate::procedure::{Solved, Work};
 use crate::recovery::{Evaluation, TracePoint};
-use crate::run::Run;
-use crate::run::accuracy;
 use crate::run::outcome::RunError;
-use crate::run::summary::bodies::{LargestStresses, largest_stresses};
+use crate::run::summary::bodies::largest_stresses;
 use crate::run::summary::contact::contact;
-use crate::run::summary::described::described;
-use crate::run::summary::fields::with_fields;
+use crate::run::summary::whole::{described, with_fields};
 use crate::run::telling::progress;
 use crate::run::verdict::exact::compare;
 use crate::run::verdict::no_result::NO_NUMBERS;
-use crate::run::verdict::warnings::apart::apart;
+use crate::run::verdict::warnings::after::{apart, large_strains, loaded_points, slivers};
 use crate::run::verdict::warnings::idle::IDLE;
-use crate::run::verdict::warnings::parts::large_strains;
-use crate::run::verdict::warnings::points::loaded_points;
-use crate::run::verdict::warnings::slivers::slivers;
+use crate::run::{Run, accuracy};
 use std::collections::BTreeMap;
 
 use super::judge::{ended, remarks};
@@ -80,10 +75,10 @@ impl Run<'_> {
         let estimate = EstimateSummary { contact: estimates, ..summary.estimate };
         let mut summary = Summary { contact: contacts, estimate, errors: errors.values, ..summary };
         let (status, reason) = self.judge(&mut summary, solved, &errors.missed);
-        let LargestStresses { bodies, drawn } = largest_stresses(&found, solved, self.case, (&summary, status))?;
-        summary.body = bodies;
+        let peaks = largest_stresses(&found, solved, self.case, (&summary, status))?;
+        summary.body = peaks.iter().cloned().collect();
         let adaptation = accuracy::adaptation(self.case, solved, &self.true_errors.borrow());
-        self.write_files(&found, &summary, (&traces, &drawn), adaptation.as_ref())?;
+        self.write_files(&found, &summary, (&traces, &peaks), adaptation.as_ref())?;
         Ok((summary, status, reason))
     }
 }

@@ -7,14 +7,13 @@ use crate::contact::{Configuration, Pair};
 use crate::discretisation::{Contact, Scene};
 use crate::element::{Plane, StressMeasure};
 use crate::mesh::MacroMesh;
-use crate::output::plot::{self, ContactZoom, DeformedFigure, DrawnContact, DrawnForce, DrawnPeak, Facet};
-use crate::output::summary::MOST_WITH_FIGURES;
+use crate::output::plot::{self, ContactZoom, DeformedFigure, DrawnContact, DrawnForce, Facet};
+use crate::output::summary::{BodySummary, MOST_WITH_FIGURES};
 use crate::output::{ContactPoint, Summary};
 use crate::recovery::Evaluation;
-use crate::run::Run;
-use crate::run::accuracy;
 use crate::run::outcome::RunError;
 use crate::run::words::title;
+use crate::run::{Run, accuracy};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -37,7 +36,7 @@ impl Run<'_> {
         &self,
         found: &Evaluation,
         summary: &Summary,
-        (traces, peaks): (&[Vec<ContactPoint>], &[DrawnPeak]),
+        (traces, peaks): (&[Vec<ContactPoint>], &[(String, BodySummary)]),
         adaptation: Option<&Adaptation>,
         stress: impl Fn(usize, usize) -> [f64; 4],
     ) -> Result<(), RunError> {
@@ -67,11 +66,8 @@ impl Run<'_> {
             plot::write_along(folder, &contacts[at].pair.name, &drawn[at])?;
         }
         if shown.len() < contacts.len() {
-            self.report.say(&format!(
-                "figures of {} of {} contacts: those that are trusted least, and those with the largest forces",
-                shown.len(),
-                contacts.len()
-            ));
+            let words = "those that are trusted least, and those with the largest forces";
+            self.report.say(&format!("figures of {} of {} contacts: {words}", shown.len(), contacts.len()));
         }
         let has_axis = self.case.plane == Plane::Revolution;
         for (drawing, facets) in zooms.iter().zip(&zoomed).filter(|(_, facets)| !facets.is_empty()) {

@@ -4,14 +4,13 @@ use super::{fields, figures};
 use crate::accuracy::Adaptation;
 use crate::discretisation::Contact;
 use crate::mesh::MacroMesh;
-use crate::output::plot::DrawnPeak;
 use crate::output::report::{ReportPage, write_report};
-use crate::output::summary::{Status, Summary};
+use crate::output::summary::{BodySummary, Status, Summary};
 use crate::output::{ContactPoint, OutputError, ResultFolder, vtk, write_contact};
 use crate::recovery::Evaluation;
 use crate::run::Run;
 use crate::run::accuracy::ADAPTED_MESH;
-use crate::run::outcome::{Outcome, RunError};
+use crate::run::outcome::RunError;
 use crate::run::telling::report::memory;
 use crate::run::telling::{interruption, progress};
 use crate::run::verdict::expected::expected_values;
@@ -20,7 +19,7 @@ use std::path::Path;
 
 impl Run<'_> {
     /// Writes what tells the whole result, and prints the verdict. **Collective**
-    pub(in crate::run) fn finish(&self, summary: Summary, mesh: &MacroMesh) -> Result<Outcome, RunError> {
+    pub(in crate::run) fn finish(&self, summary: Summary, mesh: &MacroMesh) -> Result<Status, RunError> {
         let time_s = self.report.times(&self.stages, self.session);
         let provenance = Some(self.origin.provenance.clone());
         let summary = Summary { time_s, memory_mib: memory(self.session), provenance, ..summary };
@@ -33,13 +32,8 @@ impl Run<'_> {
         if summary.status == Status::Converged {
             summary.stresses_in_words().iter().for_each(|words| self.report.say(words));
         }
-        let outcome = match summary.status {
-            Status::Converged => Outcome::Converged,
-            Status::Unresolved => Outcome::Unresolved,
-            Status::NotConverged | Status::Interrupted => Outcome::NotConverged,
-        };
-        self.report.verdict(outcome, &summary, &self.options.out);
-        Ok(outcome)
+        self.report.verdict(&summary, &self.options.out);
+        Ok(summary.status)
     }
 
     /// Writes what tells a whole result, with the mesh if it was adapted, and puts the folder in its place.
@@ -55,7 +49,7 @@ impl Run<'_> {
         if self.case.output.fields {
             let contacts = self.case.contacts.iter().map(|pair| (pair.name.clone(), figures::sides(mesh, pair)));
             let (contacts, expected): (Vec<_>, _) = (contacts.collect(), expected_values(self.case, summary));
-            let (title, case) = (self.case.title.as_str(), self.origin.case());
+            let (title, case) = (self.case.title.as_str(), self.origin.case.as_str());
             let page = ReportPage { title, summary, expected: &expected, contacts: &contacts, warnings, case };
             write_report(folder.temporary(), &page)?;
         }
@@ -79,7 +73,7 @@ impl Run<'_> {
         &self,
         found: &Evaluation,
         summary: &Summary,
-        (traces, peaks): (&[Vec<ContactPoint>], &[DrawnPeak]),
+        (traces, peaks): (&[Vec<ContactPoint>], &[(String, BodySummary)]),
         adaptation: Option<&Adaptation>,
     ) -> Result<(), RunError> {
         let folder = &self.files;

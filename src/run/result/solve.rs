@@ -5,14 +5,12 @@ use crate::contact::SegmentRule;
 use crate::discretisation::Scene;
 use crate::petsc::StageGuard;
 use crate::procedure::{Event, Observer, Procedure, Solved, Work};
-use crate::run::Run;
-use crate::run::accuracy;
-use crate::run::memory;
 use crate::run::outcome::RunError;
-use crate::run::reading::known::check_pressures;
+use crate::run::reading::checks::check_pressures;
 use crate::run::telling::stages::Stages;
 use crate::run::telling::{interruption, progress};
 use crate::run::verdict::true_errors::true_errors;
+use crate::run::{Run, accuracy, memory};
 
 impl Run<'_> {
     /// Solves a scene as the case wants it, from the solution of the load step before, if there is any. **Collective**

@@ -8,7 +8,7 @@ use crate::output::{CONTACTS, OutputError, plot, vtk, write_steps};
 use crate::procedure::{Procedure, Solved};
 use crate::run::Run;
 use crate::run::outcome::RunError;
-use crate::run::reading::known::check_pressures;
+use crate::run::reading::checks::check_pressures;
 use crate::run::reading::scene;
 use crate::run::telling::interruption;
 use crate::run::words::{title, units};
@@ -43,12 +43,9 @@ impl Run<'_> {
             self.session.max(&mut seconds);
             rows.push(StepSummary::new(step.number, &step.factors, &summary, seconds[0]));
             if summary.status != Status::Converged {
-                self.report.say(&format!(
-                    "step {}: NOT {}: {}",
-                    step.number,
-                    if summary.status == Status::Unresolved { "resolved" } else { "converged" },
-                    summary.reason.as_deref().unwrap_or_default()
-                ));
+                let how = if summary.status == Status::Unresolved { "resolved" } else { "converged" };
+                let reason = summary.reason.as_deref().unwrap_or_default();
+                self.report.say(&format!("step {}: NOT {how}: {reason}", step.number));
             }
             interruption::keep_steps(&rows);
             // What has not converged is no place to begin at.
@@ -70,13 +67,10 @@ impl Run<'_> {
         Ok(Run {
             case: &self.case.steps[step.number - 1].case,
             report: self.report.of_step(step),
-            origin: self.origin.clone(),
             files: if is_last { self.files.clone() } else { own },
             draws: is_last,
-            stages: self.stages.clone(),
-            options: self.options,
-            session: self.session,
             true_errors: Default::default(),
+            ..self.clone()
         })
     }
 

@@ -14,7 +14,7 @@ use crate::procedure::{Event, Work};
 use crate::run::accuracy;
 use crate::run::reading::origin::ResultOrigin;
 use crate::run::run_options::RunOptions;
-use crate::run::summary::described::described;
+use crate::run::summary::whole::described;
 use crate::run::words::doing;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
 use signal_hook::iterator::Signals;
@@ -285,7 +285,7 @@ impl Unfinished {
         let (time_s, provenance) = (Time { total: Some(seconds), ..summary.time_s }, Some(origin.provenance.clone()));
         let summary = Summary { status: Status::Interrupted, reason: Some(reason.clone()), time_s, provenance, ..summary };
         let report = |title: &String| {
-            let case = origin.case();
+            let case = &origin.case;
             let page = ReportPage { title, summary: &summary, expected: &[], contacts: &[], warnings: &warnings, case };
             write_report(folder.temporary(), &page)
         };

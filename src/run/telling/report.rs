@@ -8,15 +8,14 @@ use crate::discretisation::{Contact, Scene};
 use crate::element::Order;
 use crate::mesh::Numbering;
 use crate::output::Summary;
-use crate::output::summary::{MOST_TOLD, Memory, Provenance, Time, WORST, listed};
+use crate::output::summary::{MOST_TOLD, Memory, Provenance, Status, Time, WORST, clauses, listed};
 use crate::petsc::Session;
 use crate::procedure::Event;
 use crate::run::accuracy;
-use crate::run::outcome::Outcome;
+use crate::run::memory::value;
 use crate::run::reading::origin;
 use crate::run::run_options::RunOptions;
-use crate::run::verdict::warnings::parts::locking;
-use crate::run::verdict::warnings::segments::short_segments;
+use crate::run::verdict::warnings::before::{locking, short_segments};
 use crate::run::words::{length, title};
 use std::collections::HashSet;
 use std::io::Write;
@@ -85,29 +84,21 @@ impl Report {
             Event::Solver(words) => self.say(&format!("solver: {words}")),
             Event::Coarse { refine, unknowns, active, passes, converged } => {
                 let iterations: Vec<String> = passes.iter().map(|pass| pass.krylov_iterations.to_string()).collect();
-                self.say(&format!(
-                    "refine {refine}: {unknowns} unknowns, {}/{} multipliers in contact, {} iterations{}",
-                    active.iter().filter(|active| **active).count(),
-                    active.len(),
-                    iterations.join(" "),
-                    if *converged { "" } else { "; not converged, not used further" }
-                ));
+                let (iterations, all) = (iterations.join(" "), active.len());
+                let active = active.iter().filter(|active| **active).count();
+                let end = if *converged { "" } else { "; not converged, not used further" };
+                let words = format!("{active}/{all} multipliers in contact, {iterations} iterations{end}");
+                self.say(&format!("refine {refine}: {unknowns} unknowns, {words}"));
                 passes.iter().for_each(|pass| self.fallback(pass.fallback.as_deref()));
             }
             Event::Refinement { .. } => {}
             Event::Begin(follows) => self.head(*follows),
             Event::Passed(pass, all) => {
-                self.say(&format!(
-                    "{:5}  {:>6}/{all:<6} {:>3}/{:<4} {:>4}   {:8.1e}  {:11.2e}  {:8.1e}",
-                    pass.iteration,
-                    pass.active,
-                    format!("+{}", pass.added),
-                    format!("-{}", pass.released),
-                    pass.krylov_iterations,
-                    pass.residual,
-                    pass.max_penetration,
-                    pass.du
-                ));
+                let (number, active, krylov) = (pass.iteration, pass.active, pass.krylov_iterations);
+                let (added, released) = (format!("+{}", pass.added), format!("-{}", pass.released));
+                let [residual, penetration, du] = [pass.residual, pass.max_penetration, pass.du];
+                let sets = format!("{number:5}  {active:>6}/{all:<6} {added:>3}/{released:<4} {krylov:>4}");
+                self.say(&format!("{sets}   {residual:8.1e}  {penetration:11.2e}  {du:8.1e}"));
                 self.fallback(pass.fallback.as_deref());
             }
             Event::Placed(step) => {
@@ -142,15 +133,9 @@ impl Report {
         let error = |place: usize| mesh.errors.get(place).copied().flatten();
         let goal = |&place: &usize| accuracy::estimate(&asked.goals[place], error(place), wanted[place]);
         let all: Vec<String> = accuracy::told(asked, Some(mesh)).iter().map(goal).collect();
-        self.say(&format!(
-            "mesh {:2}: {} macro triangles, {} unknowns, {}{}, {:.2} s",
-            mesh.number,
-            mesh.macro_triangles,
-            mesh.unknowns,
-            accuracy::of_how_many(asked, Some(mesh)),
-            all.join(", "),
-            mesh.seconds
-        ));
+        let goals = accuracy::of_how_many(asked, Some(mesh)) + &all.join(", ");
+        let AdaptedMesh { number, macro_triangles, unknowns, seconds, .. } = mesh;
+        self.say(&format!("mesh {number:2}: {macro_triangles} macro triangles, {unknowns} unknowns, {goals}, {seconds:.2} s"));
     }
 
     /// Sizes of mesh and contacts.
@@ -210,18 +195,18 @@ impl Report {
     }
 
     /// The last words: the verdict, and where the results are. A bad one is printed even if the run is quiet.
-    pub fn verdict(&self, outcome: Outcome, summary: &Summary, out: &Path) {
+    pub fn verdict(&self, summary: &Summary, out: &Path) {
         let reason = summary.reason.as_deref().unwrap_or_default();
-        match outcome {
-            Outcome::Converged => match untrusted(summary) {
+        match summary.status {
+            Status::Converged => match untrusted(summary) {
                 None => self.say(&format!("mezha: converged: {reason}")),
                 Some(contacts) => {
                     self.say(&format!("mezha: converged; pressure NOT trusted ({contacts})"));
                     clauses(reason).iter().for_each(|clause| self.say(&format!("    {clause}")));
                 }
             },
-            Outcome::NotConverged | Outcome::Unresolved => {
-                let words = if outcome == Outcome::Unresolved { "resolved" } else { "converged" };
+            Status::NotConverged | Status::Unresolved | Status::Interrupted => {
+                let words = if summary.status == Status::Unresolved { "resolved" } else { "converged" };
                 let words = format!("mezha: NOT {words}: {reason}");
                 if self.first && !self.speaks {
                     let _ = progress::aside(|| writeln!(std::io::stderr(), "{words}"));
@@ -252,11 +237,8 @@ impl Report {
             "seconds: mesh {mesh:.3}  contact {contact:.3}  assemble {assemble:.3}  setup {setup:.3}  solve {solve:.3}  output {output:.3}  total {total:.3}"
         ));
         let memory = &summary.memory_mib;
-        self.say(&format!(
-            "memory: {:.0} MiB on the largest rank, {:.0} MiB in all",
-            memory.max_rank.unwrap_or(0.0),
-            memory.sum.unwrap_or(0.0)
-        ));
+        let [largest, sum] = [memory.max_rank, memory.sum].map(|mib| mib.unwrap_or(0.0));
+        self.say(&format!("memory: {largest:.0} MiB on the largest rank, {sum:.0} MiB in all"));
     }
 }
 
@@ -275,13 +257,8 @@ pub fn contact_lines(contacts: &[Contact]) -> Vec<String> {
         )];
     }
     let words = |contact: &Contact| {
-        format!(
-            "contact {}: {} segments over a length of {}, {} multipliers",
-            contact.pair.name,
-            contact.boundary.segments(),
-            length(contact.boundary.length()),
-            contact.multipliers.count()
-        )
+        let (name, segments, length) = (&contact.pair.name, contact.boundary.segments(), length(contact.boundary.length()));
+        format!("contact {name}: {segments} segments over a length of {length}, {} multipliers", contact.multipliers.count())
     };
     contacts.iter().map(words).collect()
 }
@@ -292,46 +269,12 @@ fn untrusted(summary: &Summary) -> Option<String> {
     (count > 0).then(|| format!("{count} of {all} contact{}", if all == 1 { "" } else { "s" }))
 }
 
-/// The clauses of a reason, which semicolons part outside of brackets.
-fn clauses(reason: &str) -> Vec<&str> {
-    let (mut all, mut from, mut depth) = (Vec::new(), 0, 0_usize);
-    for (at, letter) in reason.char_indices() {
-        match letter {
-            '(' => depth += 1,
-            ')' => depth = depth.saturating_sub(1),
-            ';' if depth == 0 => {
-                all.push(reason[from..at].trim());
-                from = at + 1;
-            }
-            _ => {}
-        }
-    }
-    all.push(reason[from..].trim());
-    all
-}
-
 /// Largest resident memory so far, as the system knows it. **Collective**
 pub fn memory(session: &Session) -> Memory {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).and_then(|rest| rest.split_whitespace().next());
-    let own = peak.and_then(|kib| kib.parse::<f64>().ok()).unwrap_or(f64::NAN) / 1024.0;
+    let own = value(&status, "VmHWM:").unwrap_or(f64::NAN) / 1024.0;
     let (mut largest, mut sum) = ([own], [own]);
     session.max(&mut largest);
     session.sum(&mut sum);
     Memory { max_rank: Some(largest[0]), sum: Some(sum[0]) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_reason_is_told_by_its_clauses() {
-        let reason = "pressure unreliable: contact a (on 3 segments; off by 0.1); refine the mesh; estimated error 3e-2";
-        assert_eq!(
-            clauses(reason),
-            ["pressure unreliable: contact a (on 3 segments; off by 0.1)", "refine the mesh", "estimated error 3e-2"]
-        );
-        assert_eq!(clauses("one"), ["one"]);
-    }
 }

@@ -5,7 +5,7 @@ use crate::geometry::Point;
 use crate::mesh::Region;
 use crate::recovery::Evaluation;
 use crate::run::outcome::{RunError, outside};
-use crate::run::reading::known::has_values;
+use crate::run::reading::checks::has_values;
 use std::collections::BTreeMap;
 
 /// Relative errors by name, and words for each that misses its tolerance.

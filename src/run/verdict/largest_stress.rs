@@ -4,7 +4,16 @@ use crate::output::summary::Status;
 use crate::run::verdict::limits::{STRESS_APART, STRESS_COUNTS};
 
 /// What is known of the largest von Mises stress of a part.
+#[derive(Default)]
 pub struct PartStress {
+    /// Name of the part.
+    pub name: String,
+    /// Number of its body.
+    pub body: usize,
+    /// Where the stress is, undeformed.
+    pub place: [f64; 2],
+    /// Displacement of that place.
+    pub displacement: [f64; 2],
     /// How large it is (stress).
     pub now: f64,
     /// The same on the refinement before; nothing if none was solved.
@@ -16,7 +25,7 @@ pub struct PartStress {
 /// What speaks against a largest stress; nothing if it can be believed. `most` is the largest of all bodies, `finer` what makes the
 /// mesh finer.
 pub fn stress_doubt(status: Status, stress: &PartStress, most: f64, finer: &str) -> Option<String> {
-    let PartStress { now, before, unbounded } = stress;
+    let PartStress { now, before, unbounded, .. } = stress;
     match status {
         Status::NotConverged | Status::Interrupted => return Some("the run has not converged".into()),
         Status::Unresolved => return Some("the run is not resolved".into()),
@@ -45,7 +54,7 @@ mod tests {
     #[test]
     fn a_stress_is_believed_where_it_has_a_bound_and_two_meshes_agree() {
         let doubt = |before: Option<f64>, unbounded: Option<&str>, most: f64| {
-            let stress = PartStress { now: 100.0, before, unbounded: unbounded.map(String::from) };
+            let stress = PartStress { now: 100.0, before, unbounded: unbounded.map(String::from), ..PartStress::default() };
             stress_doubt(Status::Converged, &stress, most, "refine").unwrap_or_default()
         };
         assert_eq!(doubt(Some(104.0), None, 100.0), "");
@@ -58,7 +67,7 @@ mod tests {
 
     #[test]
     fn no_stress_is_believed_of_a_run_that_cannot_be_used() {
-        let stress = PartStress { now: 1.0, before: Some(1.0), unbounded: None };
+        let stress = PartStress { now: 1.0, before: Some(1.0), ..PartStress::default() };
         for (status, words) in [(Status::NotConverged, "not converged"), (Status::Unresolved, "not resolved")] {
             assert!(stress_doubt(status, &stress, 1.0, "").expect("a doubt").contains(words));
         }

@@ -5,7 +5,6 @@
 //! else than the case says (`unresolved`), with pressures to be trusted or not (`trust`), with largest stresses to be believed or not (`largest_stress`), and near or far from what is known
 //! (`exact`, `expected`, `true_errors`). Nothing here prints, and nothing changes a digit of a result.
 
-pub(crate) mod balance;
 pub(crate) mod exact;
 pub(crate) mod expected;
 pub(crate) mod largest_stress;

@@ -44,12 +44,8 @@ fn too_narrow(judged: &Judged) -> Option<String> {
         let share = |(_, (width, edge)): &(&str, (f64, f64))| width / edge;
         share(a).total_cmp(&share(b))
     })?;
-    Some(format!(
-        "contact {name} is {} wide by its force, less than an edge of {} there; {}",
-        short(width),
-        short(edge),
-        judged.remedy(name, width / edge)
-    ))
+    let (remedy, [width, edge]) = (judged.remedy(name, width / edge), [width, edge].map(short));
+    Some(format!("contact {name} is {width} wide by its force, less than an edge of {edge} there; {remedy}"))
 }
 
 /// Width of a zone and length of the edges there: by what presses, and by what its force asks for.
@@ -72,13 +68,11 @@ fn in_each_other(judged: &Judged) -> Option<String> {
     };
     let (name, contact) = judged.contacts().max_by(|a, b| share(a.1).total_cmp(&share(b.1)))?;
     let (depth, approach) = deep(contact).filter(|_| share(contact) > DEEPEST)?;
-    let [x, y] = contact.deepest?;
+    let [x, y] = contact.deepest?.map(short);
     let edges = contact.zones.iter().filter_map(width).map(|(width, edge)| width / edge).fold(f64::INFINITY, f64::min);
+    let remedy = judged.remedy(name, edges);
     Some(format!(
-        "contact {name}: the bodies lie in each other by {depth:.1e} near ({}, {}), and have come together by {approach:.1e}; {}",
-        short(x),
-        short(y),
-        judged.remedy(name, edges)
+        "contact {name}: the bodies lie in each other by {depth:.1e} near ({x}, {y}), and have come together by {approach:.1e}; {remedy}"
     ))
 }
 

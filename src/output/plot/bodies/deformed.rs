@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use super::facets::{Facet, FacetCorner, boundary_edges, check_facets, displacement_near, draw_outlines, facet_bounds};
-use super::moved::{CONTACT, moved_contact};
-use super::peaks::{DrawnPeak, draw_peaks};
+use super::facets::{
+    CONTACT, Facet, FacetCorner, boundary_edges, check_facets, displacement_near, draw_outlines, facet_bounds, moved_contact,
+};
+use super::peaks::draw_peaks;
 use super::stress::{BAR_ROOM, Colours, draw_colour_bar, draw_stress};
 use crate::element::StressMeasure;
 use crate::output::error::OutputError;
@@ -13,6 +14,7 @@ use crate::output::plot::drawing::{
     Canvas, Chart, GREY, HEAD, INK, LegendCell, Paint, PlotRoom, VERMILION, WHITE, bounds, number_text, round_number,
     up_to_the_axis,
 };
+use crate::output::summary::BodySummary;
 use crate::output::units::Units;
 
 /// An edge of the macro mesh as the figure shows it: undeformed points from end to end, and their displacements.
@@ -68,8 +70,8 @@ pub struct DeformedFigure<'a> {
     pub contacts: &'a [DrawnContact<'a>],
     /// Forces: lines, as wide as they are large.
     pub forces: &'a [DrawnForce],
-    /// The largest stress of each body.
-    pub peaks: &'a [DrawnPeak],
+    /// The largest stress of each body, by its name.
+    pub peaks: &'a [(String, BodySummary)],
     /// Whether bodies of revolution are shown, with their axis.
     pub has_axis: bool,
     /// The units of the case.

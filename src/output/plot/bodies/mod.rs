@@ -2,7 +2,6 @@
 
 mod deformed;
 mod facets;
-mod moved;
 mod peaks;
 #[cfg(test)]
 mod samples;
@@ -11,6 +10,5 @@ mod zoom;
 
 pub use deformed::{DeformedFigure, DrawnEdge, DrawnForce};
 pub use facets::Facet;
-pub use peaks::DrawnPeak;
 pub use stress::stress_file;
 pub use zoom::{ContactZoom, write_zoom};

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use super::deformed::plane;
-use super::facets::{Facet, FacetCorner, boundary_edges, check_facets, draw_outlines};
-use super::moved::{CONTACT, moved_contact, moved_point, some_of};
+use super::facets::{
+    CONTACT, Facet, FacetCorner, boundary_edges, check_facets, draw_outlines, moved_contact, moved_point, some_of,
+};
 use super::stress::{Colours, draw_colour_bar, draw_stress};
 use crate::element::StressMeasure;
 use crate::output::data::ContactPoint;
@@ -89,13 +90,8 @@ pub fn write_zoom(
     let [from, to] = zoom.interval.map(number_text);
     let title = format!("{}, s = {from} to {to}, displacements × 1", contact.title);
     let pressure = Paint::line(BLUE, 1.6);
-    let mut legend = vec![
-        LegendCell::lines("contact boundary", &CONTACT),
-        LegendCell::lines(
-            format!("contact pressure λ, up to {}{}", number_text(largest), contact.units.stress().after()),
-            &[pressure],
-        ),
-    ];
+    let words = format!("contact pressure λ, up to {}{}", number_text(largest), contact.units.stress().after());
+    let mut legend = vec![LegendCell::lines("contact boundary", &CONTACT), LegendCell::lines(words, &[pressure])];
     legend.extend(colours.remark(contact.units.stress()));
     chart.draw_head(&mut canvas, &title, &[legend]);
     canvas.within(chart.frame, "", |canvas| {

@@ -8,8 +8,8 @@ use crate::case::Case;
 use crate::contact::Pair;
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
-use crate::run::verdict::balance::{balance_doubts, is_strained};
 use crate::run::verdict::limits::{CORNERS, Doubt, ENERGY, FORCE, INF_SUP, OSCILLATION, Remedy, TRUSTED_FORCE};
+use crate::run::verdict::no_result::{balance_doubts, is_strained};
 use crate::run::words::short;
 
 /// What a contact without force is called.

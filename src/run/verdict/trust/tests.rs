@@ -7,8 +7,8 @@ use super::samples::*;
 use super::zones::*;
 use super::*;
 use crate::output::summary::{self, BalanceSummary, ContactEstimate, EstimateSummary, SupportSummary, ZoneSummary};
-use crate::run::verdict::balance::balance_doubts;
 use crate::run::verdict::limits::ENERGY;
+use crate::run::verdict::no_result::balance_doubts;
 
 fn words_of(zones: Vec<ZoneSummary>, missing: f64) -> String {
     let contact = ContactSummary { zones, missing: Some(missing), ..ContactSummary::default() };

@@ -1,8 +1,44 @@
-//! Whether the angles that a case gives are small.
+//! Words for cases and meshes that are likely not what is meant, before anything is solved.
 
-use crate::body::RigidSet;
+use crate::body::{BodyPart, RigidSet};
 use crate::case::Case;
-use crate::run::verdict::limits::ROTATION;
+use crate::discretisation::{Contact, Scene};
+use crate::element::Order;
+use crate::mesh::{MacroMesh, Slit};
+use crate::run::verdict::limits::{P1_STIFF, ROTATION};
+use crate::run::words::short;
+
+/// A sentence for each body of whose boundary edges some lie on each other.
+pub fn slits(mesh: &MacroMesh) -> Vec<String> {
+    let words = |Slit { body, pairs, place }: Slit| {
+        let edges = if pairs == 1 { "pair of boundary edges that lies" } else { "pairs of boundary edges that lie" };
+        let (name, [x, y]) = (&mesh.bodies[body], [place.x, place.y].map(short));
+        format!(
+            "body \"{name}\" has {pairs} {edges} on each other, near ({x}, {y}): a slit that nothing closes; if none is meant, its nodes were not merged: merge them with `Coherence Mesh` in gmsh"
+        )
+    };
+    mesh.slits().into_iter().map(words).collect()
+}
+
+/// Parts that P1 triangles are too stiff for.
+pub fn locking(scene: &Scene) -> Vec<String> {
+    let locks = |part: &&BodyPart| scene.order == Order::P1 && part.material.poisson_in_plane() > P1_STIFF;
+    let words = |part: &BodyPart| {
+        format!("body {} has ν = {}: P1 triangles lock towards 0.5; take mesh.order = 2", part.name, part.material.poisson)
+    };
+    scene.parts().into_iter().filter(locks).map(words).collect()
+}
+
+/// Contacts with such segments, and what is done about them.
+pub fn short_segments(contacts: &[Contact]) -> Vec<String> {
+    let words = |contact: &Contact| {
+        let remedy =
+            if contact.jumps.is_empty() { "watch inf_sup and oscillation" } else { "the jump term is added (stabilise)" };
+        let (name, ratio, safe) = (&contact.pair.name, short(contact.segment_ratio), contact.safe_ratio);
+        format!("contact {name}: segments of {ratio} edges of the softer body, {safe} or more are safe: {remedy}")
+    };
+    contacts.iter().filter(|contact| contact.has_short_segments()).map(words).collect()
+}
 
 /// Words for each rigid tool and each plate whose given angle no theory of small rotations is good for; of load steps the
 /// largest angle counts.
