@@ -6,9 +6,10 @@
 //! its own q: beside corners errors fall slowly, elsewhere quickly, and what is small of the difference may be most of what is
 //! left. Where active sets or contact boundaries change from mesh to mesh the spaces are not nested, and this is heuristic.
 
-use super::decay::{FORCE_SLOWEST, SHARES, falls, left, value_left};
-use super::difference::{ContactDifference, Difference, ProbeDifference};
+use super::decay::{FORCE_SLOWEST, falls, left};
+use super::difference::Difference;
 use super::energy_norm::share;
+use super::value_estimate::{Both, ValueEstimate};
 use super::zone_estimate::{ZoneDifference, ZoneEstimate};
 use crate::contact::Zone;
 use crate::discretisation::ContactPressure;
@@ -29,27 +30,6 @@ const ENERGY_BY_ONE_ADAPTED: f64 = 0.7;
 /// for its pressure, in the place of 34.
 const FORESEEN_BY_ONE: f64 = 0.4;
 const ENERGY_FALLS: f64 = 0.09;
-
-/// Factors by which errors of a force fall on a smooth solution, P1 and P2.
-const FORCE_FALLS: [f64; 2] = [0.25, 0.125];
-
-/// Factor by which errors of the largest pressure fall on a smooth solution.
-const PEAK_FALLS: f64 = 0.25;
-
-/// Factor by which errors of the ends of contact fall: they lie at ends of segments.
-const ENDS_FALL: f64 = 0.5;
-
-/// Factors by which errors of displacement and of stress at a point fall on a smooth solution, P1 and P2; none for the stress of
-/// P1, which is constant on each triangle.
-const PROBES_FALL: [[Option<f64>; 2]; 2] = [[Some(0.25), Some(0.125)], [None, Some(0.25)]];
-
-/// Share of the last difference of a force that is left, where it says nothing of how it falls, and at least: its errors have either
-/// sign, so that they may seem to fall more quickly than they do.
-const FORCE_SHARES: [f64; 2] = [0.6, 0.3];
-
-/// Shares of the last difference of a force that are left where the energy norm tells that it falls more slowly than on a smooth
-/// solution.
-const FORCE_SLOW_SHARES: [f64; 2] = [0.3, 0.3];
 
 /// λ at both ends of a zone, on the mesh before and on the one before that (stress).
 pub(crate) type AtEnds = [Option<[f64; 2]>; 2];
@@ -101,8 +81,6 @@ impl Estimate {
     ) -> Self {
         let Some((last, earlier)) = differences.split_last() else { return Self::default() };
         let before = earlier.last();
-        // What each contact differs by now, and differed by before.
-        type Both<'d> = (&'d ContactDifference, Option<&'d ContactDifference>);
         let contacts = last.contacts.iter().enumerate().map(|(k, now)| (now, before.map(|before| &before.contacts[k])));
         let zones = |(now, then): Both| -> Vec<[Option<ZoneDifference>; 2]> {
             let again = |zone: &ZoneDifference| zone.again(&then?.zones).cloned();
@@ -135,38 +113,8 @@ impl Estimate {
         let foreseen = if is_first_guess { Some(last.energy * FORESEEN_BY_ONE.powi(2)) } else { energy };
         // The error of a value is a product of two in the energy norm, and falls as the square of that does.
         let slow = before.map_or(0.0, |before| (last.energy / before.energy).min(FORCE_SLOWEST));
-        let force = |(now, then): Both| {
-            let smooth = FORCE_FALLS[order.degree() - 1];
-            let left = |fall: f64, shares| value_left(then.map(|then| then.force), now.force, fall, shares);
-            let error = left(smooth, FORCE_SHARES)?.max(left(smooth.max(slow), FORCE_SLOW_SHARES)?);
-            Some(error.max(residual))
-        };
-        let peak = |(now, then): Both| {
-            let left = value_left(then.map(|then| then.peak), now.peak, PEAK_FALLS, SHARES)?;
-            Some((left + now.above).max(residual))
-        };
-        let ends = |(now, then): Both| {
-            let (within, is_all) = now.within_segments;
-            if is_all {
-                return Some(within.max(residual));
-            }
-            // Ends that stay where they are from mesh to mesh are no better for it than the segments are short.
-            let left = value_left(then.map(|then| then.ends), now.ends, ENDS_FALL, SHARES)?;
-            Some(left.max(within).max(residual))
-        };
-        let probe = |k: usize| {
-            let left = |what: usize, of: &dyn Fn(&ProbeDifference) -> f64| {
-                let (now, then) = (of(&last.probes[k]), before.map(|before| of(&before.probes[k])));
-                let left = match PROBES_FALL[what][order.degree() - 1] {
-                    Some(fall) => value_left(then, now, fall.max(slow), SHARES),
-                    // Stresses of P1 jump from triangle to triangle: no difference is small but by luck.
-                    None => Some(now.max(then.unwrap_or(now))).filter(|left| left.is_finite()),
-                };
-                left.map(|error| error.max(residual))
-            };
-            let [at_point, around] = [0, 1].map(|of: usize| left(1, &|probe| probe.stress[of]));
-            [left(0, &|probe| probe.displacement), at_point.zip(around).map(|(point, around)| point.max(around))]
-        };
+        let values = ValueEstimate { order, slow, residual };
+        let probe = |k: usize| values.probe(&last.probes[k], before.map(|before| &before.probes[k]));
         Self {
             energy: energy.map(f64::sqrt).filter(|error| error.is_finite()),
             difference: Some(last.energy.sqrt()).filter(|difference| difference.is_finite()),
@@ -176,9 +124,9 @@ impl Estimate {
             energy_falls: if is_first_guess { vec![ENERGY_FALLS; last.of_triangles.len()] } else { falls.clone() },
             falls,
             shares_left,
-            force: contacts.clone().map(force).collect(),
-            peak: contacts.clone().map(peak).collect(),
-            ends: contacts.clone().map(ends).collect(),
+            force: contacts.clone().map(|both| values.force(both)).collect(),
+            peak: contacts.clone().map(|both| values.peak(both)).collect(),
+            ends: contacts.clone().map(|both| values.ends(both)).collect(),
             probes: (0..last.probes.len()).map(probe).collect(),
             zones: contacts.map(zones).collect(),
         }
@@ -212,6 +160,7 @@ impl Estimate {
 
 #[cfg(test)]
 mod tests {
+    use super::super::difference::ContactDifference;
     use super::*;
 
     fn difference(square: f64) -> Difference {

@@ -7,6 +7,7 @@ mod duals;
 mod end_estimate;
 mod energy_norm;
 mod estimate;
+mod value_estimate;
 mod zone_estimate;
 
 pub use difference::Difference;

@@ -58,22 +58,12 @@ impl Run<'_> {
         let shown: BTreeSet<&str> = summary.with_figures().into_iter().collect();
         let has_figures = |at: usize| shown.contains(contacts[at].pair.name.as_str());
         let zooms = self.zooms(summary, contacts, &drawn, &facets, has_figures)?;
-        let zoomed: Vec<Vec<Facet>> = zooms.iter().map(|drawing| fields::facets_of_zoom(found, &stress, &drawing.zoom)).collect();
+        let zoomed = |drawing: Drawing| (fields::facets_of_zoom(found, &stress, &drawing.zoom), drawing);
+        let zooms: Vec<(Vec<Facet>, Drawing)> = zooms.into_iter().map(zoomed).collect();
         if self.session.rank() != 0 {
             return Ok(());
         }
-        for at in (0..contacts.len()).filter(|&at| has_figures(at)) {
-            plot::write_along(folder, &contacts[at].pair.name, &drawn[at])?;
-        }
-        if shown.len() < contacts.len() {
-            let words = "those that are trusted least, and those with the largest forces";
-            self.report.say(&format!("figures of {} of {} contacts: {words}", shown.len(), contacts.len()));
-        }
-        let has_axis = self.case.plane == Plane::Revolution;
-        for (drawing, facets) in zooms.iter().zip(&zoomed).filter(|(_, facets)| !facets.is_empty()) {
-            let name = format!("deformed_{}_{}.svg", contacts[drawing.contact].pair.name, drawing.number);
-            plot::write_zoom(&folder.join(name), &drawing.zoom, &drawn[drawing.contact], facets, has_axis)?;
-        }
+        self.write_contacts(contacts, &drawn, &shown, &zooms)?;
         let forces = drawn_forces(&found.problem.scene, contacts, summary, self.case.thickness);
         // Where forces are many, their lines say where contacts are.
         let drawn = if contacts.len() > MOST_WITH_FIGURES { &[][..] } else { &drawn };
@@ -86,7 +76,7 @@ impl Run<'_> {
             contacts: drawn,
             forces: &forces,
             peaks,
-            has_axis,
+            has_axis: self.case.plane == Plane::Revolution,
             units: &summary.units,
         };
         figure.write(&folder.join(plot::stress_file(figure.measure)))?;
@@ -94,6 +84,29 @@ impl Run<'_> {
             DeformedFigure { measure, peaks: &[], ..figure }.write(&folder.join(plot::stress_file(measure)))?;
         }
         adaptation.map_or(Ok(()), |adaptation| write_accuracy(folder, title(self.case), adaptation))
+    }
+
+    /// Draws what is along the contacts that have figures, and the intervals that are drawn of them.
+    fn write_contacts(
+        &self,
+        contacts: &[Contact],
+        drawn: &[DrawnContact],
+        shown: &BTreeSet<&str>,
+        zooms: &[(Vec<Facet>, Drawing)],
+    ) -> Result<(), RunError> {
+        for (contact, drawn) in contacts.iter().zip(drawn).filter(|(contact, _)| shown.contains(contact.pair.name.as_str())) {
+            plot::write_along(&self.files, &contact.pair.name, drawn)?;
+        }
+        if shown.len() < contacts.len() {
+            let words = "those that are trusted least, and those with the largest forces";
+            self.report.say(&format!("figures of {} of {} contacts: {words}", shown.len(), contacts.len()));
+        }
+        let has_axis = self.case.plane == Plane::Revolution;
+        for (facets, drawing) in zooms.iter().filter(|(facets, _)| !facets.is_empty()) {
+            let name = format!("deformed_{}_{}.svg", contacts[drawing.contact].pair.name, drawing.number);
+            plot::write_zoom(&self.files.join(name), &drawing.zoom, &drawn[drawing.contact], facets, has_axis)?;
+        }
+        Ok(())
     }
 
     /// The intervals that are drawn of the contacts that have figures, in the order of contacts and arc length. Rank 0 chooses.
