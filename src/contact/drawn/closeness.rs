@@ -306,18 +306,14 @@ pub fn close_sides(mesh: &MacroMesh, sides: &[CloseSide], is_asked: impl Fn(usiz
     for pair in facing_sides(mesh, sides, CLOSE, is_asked) {
         // Each tool is a body of its own.
         let others = alike.entry(pair.sides.map(|side| sides[side].body.ok_or(side))).or_default();
-        if !others.iter().any(|other| shares_edges(sides, *other, pair.sides)) {
+        let shares_edges = |other: &[usize; 2]| (0..2).any(|k| sides[other[k]].shares_edges(&sides[pair.sides[k]]));
+        if !others.iter().any(shares_edges) {
             others.push(pair.sides);
         }
     }
     let mut chosen: Vec<[usize; 2]> = alike.into_values().flatten().collect();
     chosen.sort_unstable();
     chosen
-}
-
-/// Whether two pairs have an edge in common.
-fn shares_edges(sides: &[CloseSide], one: [usize; 2], other: [usize; 2]) -> bool {
-    (0..2).any(|k| sides[one[k]].shares_edges(&sides[other[k]]))
 }
 
 /// Diagonal of the box around each body.

@@ -3,7 +3,6 @@
 use crate::contact::fit::hertz::{MOST_ROUND, ball_radius, half_width};
 use crate::contact::pair::Configuration;
 use crate::contact::smooth_side::SmoothSide;
-use crate::element::Plane;
 use crate::geometry::{Point, cross};
 
 /// Places that are looked at in the first window.
@@ -28,7 +27,7 @@ pub struct PointContact {
     /// Curvature of the rounder one of both, or what stands for their thinness if that is larger (1/length): beside both the contact
     /// has to be small for its bodies to be half-planes.
     pub roundest: f64,
-    /// How far the bodies extend across the plane there ([`Plane::width`]).
+    /// How far the bodies extend across the plane there ([`crate::element::Plane::width`]).
     pub width: f64,
 }
 
@@ -36,17 +35,6 @@ impl PointContact {
     /// Whether it lies on the axis of revolution.
     pub fn is_at_pole(&self) -> bool {
         self.width == 0.0
-    }
-
-    /// The contact between bodies in another plane.
-    pub fn in_plane(self, plane: Plane) -> Self {
-        Self { width: plane.width(self.place), ..self }
-    }
-
-    /// The contact between bodies that are thin: one by twice their thickness (1/length). Two layers that press over a width of 1.8
-    /// times that had .8 of this width and twice the true peak by Hertz.
-    pub fn beside(self, thinness: f64) -> Self {
-        Self { roundest: self.roundest.max(thinness), ..self }
     }
 
     /// Half width of what presses there with a force (per thickness; of the whole ring in bodies of revolution), by the compliance of both surfaces together (1/stress; Hertz);

@@ -58,11 +58,13 @@ struct Bodies {
     interpolations: Rc<[Interpolation]>,
 }
 
-/// What was done on a mesh so far.
-#[derive(Default)]
+/// What was done on a mesh so far, and what it took.
 struct MeshHistory {
     passes: Vec<Pass>,
     boundaries: Vec<BoundaryStep>,
+    /// Whether an active set was found by rising energy only.
+    ascended: bool,
+    preconditioning: Preconditioning,
 }
 
 /// What follows from the solves on one boundary.
@@ -77,15 +79,6 @@ enum After {
         /// Whether it is nearly where it was.
         is_near: bool,
     },
-}
-
-/// What was found on one boundary.
-struct OnBoundary {
-    solution: Solution,
-    after: After,
-    ascended: bool,
-    preconditioning: Preconditioning,
-    solver: String,
 }
 
 impl OneMesh<'_> {
@@ -119,33 +112,24 @@ impl OneMesh<'_> {
         problem: &mut Discretisation,
         bodies: &Bodies,
         mut start: Option<Start>,
-        mut preconditioning: Preconditioning,
+        preconditioning: Preconditioning,
     ) -> Result<OnMesh, SystemError> {
         let exact = self.tolerance.residual().min(ON_THE_WAY);
         let nothing = share_of_nothing(self.procedure.accuracy);
         let mut following = Following::new(problem, exact, start.is_some(), self.is_last, nothing);
         self.begin(Some(following.tolerances()));
-        let mut history = MeshHistory::default();
-        let (mut is_last, mut ascended) = (false, false);
+        let mut history = MeshHistory { passes: Vec::new(), boundaries: Vec::new(), ascended: false, preconditioning };
+        let mut is_last = false;
         for number in 1.. {
+            let system = self.system(problem, bodies, history.preconditioning)?;
             let on_boundary = BoundaryLoop { mesh: self, following: &mut following, history: &mut history, number, exact };
-            let found = on_boundary.solve(self.system(problem, bodies, preconditioning)?, start.take(), is_last)?;
-            preconditioning = found.preconditioning;
-            ascended |= found.ascended;
-            match found.after {
+            let (solution, solver, after) = on_boundary.solve(system, start.take(), is_last)?;
+            match after {
                 After::Ended(ending) => {
                     problem.contacts.iter_mut().zip(following.found).for_each(|(contact, ends)| contact.found = Some(ends));
-                    settle(problem, &found.solution, self.procedure.session)?;
-                    let MeshHistory { passes, boundaries } = history;
-                    return Ok(OnMesh {
-                        solution: found.solution,
-                        ending,
-                        passes,
-                        boundaries,
-                        ascended,
-                        preconditioning,
-                        solver: found.solver,
-                    });
+                    settle(problem, &solution, self.procedure.session)?;
+                    let MeshHistory { passes, boundaries, ascended, preconditioning } = history;
+                    return Ok(OnMesh { solution, ending, passes, boundaries, ascended, preconditioning, solver });
                 }
                 After::Moved { contacts, motion, start: next, is_near } => {
                     let _stage = self.procedure.observer.enter(Work::Contact);
@@ -262,8 +246,14 @@ struct BoundaryLoop<'l, 'p> {
 }
 
 impl BoundaryLoop<'_, '_> {
-    /// Solves on the way, unless the solve is the last one, and again as the last one if everything stands. **Collective**
-    fn solve(mut self, mut system: System, start: Option<Start>, is_last: bool) -> Result<OnBoundary, SystemError> {
+    /// Solves on the way, unless the solve is the last one, and again as the last one if everything stands: the solution, what solved
+    /// it, in words, and what follows. **Collective**
+    fn solve(
+        mut self,
+        mut system: System,
+        start: Option<Start>,
+        is_last: bool,
+    ) -> Result<(Solution, String, After), SystemError> {
         let (mut start, mut is_last) = (start, is_last || self.exact >= ON_THE_WAY);
         loop {
             let tolerance = Tolerance::Residual(if is_last { self.exact } else { ON_THE_WAY });
@@ -286,13 +276,9 @@ impl BoundaryLoop<'_, '_> {
                 After::Ended(ending) => self.mesh.finished(&mut system, solution, ending, ascended)?,
                 After::Moved { .. } => solution,
             };
-            return Ok(OnBoundary {
-                solution,
-                after,
-                ascended,
-                preconditioning: system.preconditioning(),
-                solver: system.solver_name().to_string(),
-            });
+            self.history.ascended |= ascended;
+            self.history.preconditioning = system.preconditioning();
+            return Ok((solution, system.solver_name().to_string(), after));
         }
     }
 
