@@ -2,9 +2,7 @@
 
 use toml::Value;
 
-use crate::case::keys::{
-    AUTO, BOOLEAN, Choice, FromValue, Section, ValueForm, declare, either, key, number, table, within, word,
-};
+use crate::case::keys::{AUTO, BOOLEAN, FromValue, Section, ValueForm, declare, either, key, number, table, within, word, words};
 use crate::system::{SolverChoice, Tolerance};
 
 declare! {
@@ -45,10 +43,7 @@ impl Solver {
     }
 }
 
-impl Choice for SolverChoice {
-    const WORDS: &[&str] = &["auto", "fieldsplit", "direct"];
-    const MEANINGS: &[Self] = &[Self::Auto, Self::FieldSplit, Self::Direct];
-}
+words! { SolverChoice: "auto" => Auto, "fieldsplit" => FieldSplit, "direct" => Direct }
 
 impl FromValue for Tolerance {
     fn from_value(value: &Value, form: &ValueForm) -> Result<Self, String> {

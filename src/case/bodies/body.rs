@@ -3,8 +3,8 @@
 use super::gravity::{Gravity, read_weight, with_weight};
 use crate::body::{Body, BodyPart, Material};
 use crate::case::keys::{
-    ABOVE_ZERO, ANY, Choice, FormOf, IN_PLANE, NUMBER, NumberRange, Section, TableRule, VECTOR, declare, key, number, some_named,
-    table, within, word,
+    ABOVE_ZERO, ANY, FormOf, IN_PLANE, NUMBER, NumberRange, Section, TableRule, VECTOR, declare, key, number, some_named, table,
+    within, word, words,
 };
 use crate::element::{Heat, Plane};
 use crate::geometry::Formula;
@@ -51,10 +51,7 @@ pub const PLANE_LAW: FormOf<Plane> = word();
 const RATIOS: NumberRange =
     NumberRange { above: Some(-1.0), most: Some(0.5), words: "must lie in (-1, 0.5); in plane stress 0.5 may be, too", ..ANY };
 
-impl Choice for Plane {
-    const WORDS: &[&str] = &["strain", "stress", "axisymmetric"];
-    const MEANINGS: &[Self] = &[Self::Strain, Self::Stress, Self::Revolution];
-}
+words! { Plane: "strain" => Strain, "stress" => Stress, "axisymmetric" => Revolution }
 
 /// `[body.NAME]`; `plane` holds where it says nothing else.
 pub fn read_body(section: &Section, plane: Plane, gravity: Gravity) -> Option<Body> {

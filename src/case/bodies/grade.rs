@@ -8,8 +8,10 @@
 //! order of P2 would take 0.036, the estimated error in the energy norm at 189 956 unknowns is 1.9e-3 with 0.15 and 1.4e-3 with
 //! 0.1.
 
+use toml::Value;
+
 use crate::case::keys::{
-    ABOVE_ZERO, AUTO, FormOf, OneOrEach, POINT, Section, TableRule, ValueForm, declare, either, key, list, number, set, table,
+    ABOVE_ZERO, AUTO, FormOf, POINT, Section, TableRule, ValueForm, declare, either, key, list, number, set, table, values,
     within,
 };
 use crate::element::Order;
@@ -23,10 +25,10 @@ declare! {
         .required("[[0, 3], [6, 4]]").unit("length");
     /// The fraction, one for all points or one for each; 0.5 is even. `"auto"`: 2^(-1.5/`exponent`) for P1, 2^(-2/`exponent`) for
     /// P2, which keep the order of the elements, within 0.15 and 0.5.
-    const RATIO: Option<OneOrEach> = key("ratio", either(RATIOS, "\"auto\", a number, or a list of them")).or("\"auto\"")
+    const RATIO: Value = key("ratio", either(RATIOS, "\"auto\", a number, or a list of them")).or("\"auto\"")
         .refused("must be a number, or a list of them, one per point, from 0.1 to 0.5, or \"auto\"; 0.5 is the middle of the edge");
     /// The displacement goes like r^`exponent` there, for all points or for each; `ratio = "auto"` wants it.
-    const EXPONENT: OneOrEach = key("exponent", either(EXPONENTS, "a number, or a list of them"))
+    const EXPONENT: Value = key("exponent", either(EXPONENTS, "a number, or a list of them"))
         .refused("must be a number, or a list of them, one per point, above 0: u ~ r^exponent");
 }
 
@@ -51,11 +53,14 @@ const BOUNDS: [f64; 2] = [0.15, 0.5];
 pub fn read_grade(section: &Section, order: Option<Order>) -> Option<Vec<Grade>> {
     let points = section.required(POINTS);
     let count = points.as_ref().map_or(1, Vec::len);
-    let per_point = |numbers: OneOrEach, words: &str| {
-        numbers.of(count).ok_or_else(|| format!("must be a number, or a list of {count}, one per point, {words}"))
+    let per_point = |value: Value, words: &str| match values::one_or_each(&value, values::number)? {
+        numbers if !value.is_array() => Ok(vec![numbers[0]; count]),
+        numbers if numbers.len() == count => Ok(numbers),
+        _ => Err(format!("must be a number, or a list of {count}, one per point, {words}")),
     };
-    let ratio = section.made("ratio", section.or(RATIO), |ratio| {
-        ratio.map(|ratio| per_point(ratio, "from 0.1 to 0.5, or \"auto\"; 0.5 is the middle of the edge")).transpose()
+    let ratio = section.made("ratio", section.or(RATIO), |ratio| match ratio {
+        Value::String(_) => Ok(None),
+        ratio => per_point(ratio, "from 0.1 to 0.5, or \"auto\"; 0.5 is the middle of the edge").map(Some),
     });
     let exponent = section.optional(EXPONENT);
     let exponent = section.made("exponent", exponent, |exponent| per_point(exponent, "above 0: u ~ r^exponent"));

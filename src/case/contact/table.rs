@@ -3,8 +3,8 @@
 use toml::Value;
 
 use crate::case::keys::{
-    AUTO, BOOLEAN, COUNT, Choice, FormOf, FromValue, IN_PLANE, ListForm, NAME, NAMES, TableRule, ValueForm, array, declare,
-    either, entries, key, number, of, table, whole, within, word,
+    AUTO, BOOLEAN, COUNT, FormOf, FromValue, IN_PLANE, ListForm, NAME, NAMES, TableRule, ValueForm, array, declare, either,
+    entries, key, number, of, table, whole, within, word, words,
 };
 use crate::contact::{Configuration, EndRule, GapChoice, Law, MultiplierSpace, SegmentRule};
 use crate::geometry::Formula;
@@ -75,25 +75,10 @@ const TIMES: FormOf<f64> = number(within(1.0, 1000.0));
 const BOTH_ENDS: FormOf<[f64; 2]> = array(&TIMES, "two numbers");
 const SHORTER: &[ValueForm] = &[TIMES.value, BOTH_ENDS.value];
 
-impl Choice for EndRule {
-    const WORDS: &[&str] = &["free", "fixed"];
-    const MEANINGS: &[Self] = &[Self::Free, Self::Fixed];
-}
-
-impl Choice for MultiplierSpace {
-    const WORDS: &[&str] = &["p0", "p1-discontinuous", "p1-continuous"];
-    const MEANINGS: &[Self] = &[Self::P0, Self::P1Discontinuous, Self::P1Continuous];
-}
-
-impl Choice for Law {
-    const WORDS: &[&str] = &["unilateral", "bilateral"];
-    const MEANINGS: &[Self] = &[Self::Unilateral, Self::Bilateral];
-}
-
-impl Choice for Configuration {
-    const WORDS: &[&str] = &["reference", "deformed"];
-    const MEANINGS: &[Self] = &[Self::Reference, Self::Deformed];
-}
+words! { EndRule: "free" => Free, "fixed" => Fixed }
+words! { MultiplierSpace: "p0" => P0, "p1-discontinuous" => P1Discontinuous, "p1-continuous" => P1Continuous }
+words! { Law: "unilateral" => Unilateral, "bilateral" => Bilateral }
+words! { Configuration: "reference" => Reference, "deformed" => Deformed }
 
 impl FromValue for GapChoice {
     fn from_value(value: &Value, _: &ValueForm) -> Result<Self, String> {

@@ -25,7 +25,6 @@ impl ValueForm {
     /// Words for a value that has not this form; tables are looked into by [`TableForm::faults`].
     pub fn refusal(&self, value: &Value) -> Option<String> {
         match self {
-            Self::Anything => None,
             Self::Text => values::text(value).err(),
             Self::Name => values::name(value).err(),
             Self::Short(most) => values::short(value, *most).err(),
@@ -56,7 +55,6 @@ impl ValueForm {
     /// Whether it takes values of the type that this one has.
     fn takes_type(&self, value: &Value) -> bool {
         match self {
-            Self::Anything => true,
             Self::Text | Self::Name | Self::Short(_) | Self::Word(_) => value.is_str(),
             Self::Names => value.is_str() || value.is_array(),
             Self::Boolean | Self::Yes => value.is_bool(),
@@ -73,16 +71,14 @@ impl ValueForm {
 impl NumberRange {
     /// Words for a number that is not allowed.
     pub(super) fn refusal(&self, number: f64) -> Option<String> {
-        let made = if self.above.is_some_and(|above| number <= above) {
-            self.above.map(|above| format!("must be > {above}"))
-        } else if self.least.is_some_and(|least| number < least) {
-            self.least.map(|least| format!("must be at least {least}"))
-        } else if self.most.is_some_and(|most| number > most) {
-            self.most.map(|most| format!("must be at most {most}"))
-        } else {
-            (!self.zero && number == 0.0).then(|| "must not be 0".into())
+        let made = match (self.above, self.least, self.most) {
+            (Some(above), ..) if number <= above => format!("must be > {above}"),
+            (_, Some(least), _) if number < least => format!("must be at least {least}"),
+            (.., Some(most)) if number > most => format!("must be at most {most}"),
+            _ if !self.zero && number == 0.0 => "must not be 0".into(),
+            _ => return None,
         };
-        made.map(|made| if self.words.is_empty() { made } else { self.words.into() })
+        Some(if self.words.is_empty() { made } else { self.words.into() })
     }
 }
 

@@ -34,14 +34,6 @@ pub struct FormOf<T> {
     of: PhantomData<fn() -> T>,
 }
 
-impl<T> Clone for Key<T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T> Copy for Key<T> {}
-
 /// Words, each of which stands for a value.
 pub trait Choice: Copy + 'static {
     /// The words.
@@ -190,6 +182,17 @@ macro_rules! declare {
     };
 }
 pub(crate) use declare;
+
+/// Tells the words of a choice, and what each of them stands for.
+macro_rules! words {
+    ($Of:ty: $($word:literal => $Meaning:ident),*) => {
+        impl $crate::case::keys::Choice for $Of {
+            const WORDS: &'static [&'static str] = &[$($word),*];
+            const MEANINGS: &'static [Self] = &[$(Self::$Meaning),*];
+        }
+    };
+}
+pub(crate) use words;
 
 impl NumberRange {
     /// Other numbers are refused with these words.

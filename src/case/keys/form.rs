@@ -37,8 +37,6 @@ pub enum Absent {
 /// The form of a value: what can be said without any other key, and without a mesh.
 #[derive(Clone, Copy)]
 pub enum ValueForm {
-    /// Any value.
-    Anything,
     /// A string.
     Text,
     /// A string with something in it.

@@ -66,30 +66,6 @@ impl FromValue for Formula {
     }
 }
 
-/// One number for all, or one for each.
-pub enum OneOrEach {
-    /// For all.
-    One(f64),
-    /// For each.
-    Each(Vec<f64>),
-}
-
-impl OneOrEach {
-    /// So many numbers; none if others are given.
-    pub fn of(self, count: usize) -> Option<Vec<f64>> {
-        match self {
-            Self::One(number) => Some(vec![number; count]),
-            Self::Each(numbers) => Some(numbers).filter(|numbers| numbers.len() == count),
-        }
-    }
-}
-
-impl FromValue for OneOrEach {
-    fn from_value(value: &Value, _: &ValueForm) -> Result<Self, String> {
-        if value.is_array() { one_or_each(value, number).map(Self::Each) } else { number(value).map(Self::One) }
-    }
-}
-
 /// Types that are read in one way, whatever the form.
 macro_rules! read_by {
     ($($of:ty: $read:expr;)*) => {$(

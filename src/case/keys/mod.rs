@@ -9,8 +9,6 @@
 //! - A key that is not in the table of its section cannot be asked for: that panics. A key that no reader asks for fails a test.
 //! - Problems come in the order in which readers ask. What the readers let pass, the table of keys still refuses.
 
-#[cfg(test)]
-pub mod asking;
 mod check;
 mod declaring;
 mod form;
@@ -20,8 +18,10 @@ pub mod values;
 
 pub use declaring::*;
 pub use form::*;
-pub use from_value::{FromValue, OneOrEach};
+pub use from_value::FromValue;
 pub use section::Section;
+#[cfg(test)]
+pub use tests::{never_asked, tables};
 
 #[cfg(test)]
 mod tests;

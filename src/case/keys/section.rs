@@ -70,13 +70,14 @@ impl<'a> Section<'a> {
 
     /// A value with a default, which is read in the same way and written into the resolved case.
     pub fn or<T: FromValue>(&self, key: Key<T>) -> Option<T> {
-        self.or_else(key, || self.default_of(key.form.name))
+        let name = key.form.name;
+        self.or_else(key, || self.default_of(name))
     }
 
     /// A value with a default, which holds in the place of a bad value, too: of that the log knows.
     pub fn or_default<T: FromValue>(&self, key: Key<T>) -> T {
-        let default =
-            || T::from_value(&self.default_of(key.form.name), &key.form.value).expect("a default has the form of its key");
+        let form = key.form;
+        let default = || T::from_value(&self.default_of(form.name), &form.value).expect("a default has the form of its key");
         self.or(key).unwrap_or_else(default)
     }
 
@@ -85,9 +86,9 @@ impl<'a> Section<'a> {
         if let Some(value) = self.get(key.form.name) {
             return self.checked(key, value);
         }
-        let default = default().into();
+        let (path, default) = (self.child(key.form.name), default().into());
         let result = self.checked(key, &default);
-        self.log.borrow_mut().defaults.push((self.child(key.form.name), default));
+        self.log.borrow_mut().defaults.push((path, default));
         result
     }
 
@@ -125,7 +126,7 @@ impl<'a> Section<'a> {
     }
 
     /// Reads every table under a key, as in `[body.lower]`, `[body.upper]`.
-    pub fn named<T>(&self, key: &'static str, read: impl Fn(&Section) -> Option<T>) -> Vec<T> {
+    pub fn named<T>(&self, key: &'static str, mut read: impl FnMut(&Section) -> Option<T>) -> Vec<T> {
         let mut results = Vec::new();
         for (name, value) in self.tables(key).into_iter().flatten() {
             let path: Vec<String> = self.child(key).into_iter().chain([name.clone()]).collect();
@@ -204,7 +205,7 @@ impl<'a> Section<'a> {
     fn form_of(&self, key: &'static str) -> &'static KeyForm {
         let form = self.form.key(key).unwrap_or_else(|| panic!("{key} is no key of a {}", self.form.name));
         #[cfg(test)]
-        super::asking::note(self.form, form);
+        super::tests::note(self.form, form);
         form
     }
 

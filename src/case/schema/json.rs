@@ -16,11 +16,11 @@ const IN_FILES: &str = "^[^\\u0000-,/:-@\\[-^`{-\\u007f]*$";
 /// The JSON Schema of a file.
 pub fn json(file: &'static TableForm) -> String {
     let mut definitions = BTreeMap::new();
-    let Value::Object(mut schema) = table(file, &mut definitions) else { unreachable!("a table is an object") };
-    schema.insert("$schema".into(), value!("https://json-schema.org/draft/2020-12/schema"));
-    schema.insert("title".into(), value!(format!("mezha: {} file", file.name)));
-    schema.insert("description".into(), value!(format!("Keys of a {} file of mezha, made by `mezha schema`.", file.name)));
-    schema.insert("$defs".into(), value!(definitions));
+    let mut schema = table(file, &mut definitions);
+    schema["$schema"] = value!("https://json-schema.org/draft/2020-12/schema");
+    schema["title"] = value!(format!("mezha: {} file", file.name));
+    schema["description"] = value!(format!("Keys of a {} file of mezha, made by `mezha schema`.", file.name));
+    schema["$defs"] = value!(definitions);
     serde_json::to_string_pretty(&schema).expect("a value of JSON can be written")
 }
 
@@ -29,17 +29,20 @@ type Definitions = BTreeMap<&'static str, Value>;
 /// What may stand in a table.
 fn table(form: &'static TableForm, definitions: &mut Definitions) -> Value {
     let properties: Map<String, Value> = form.all().map(|key| (key.name.into(), property(key, definitions))).collect();
-    let mut schema = value!({ "type": "object", "properties": properties, "additionalProperties": false });
     let required: Vec<&str> = form.all().filter(|key| key.absent == Absent::Refused).map(|key| key.name).collect();
-    if !required.is_empty() {
-        schema["required"] = value!(required);
-    }
-    if !form.sentence.is_empty() {
-        schema["description"] = value!(plain(form.sentence));
-    }
-    if !form.rules.is_empty() {
-        schema["allOf"] = form.rules.iter().map(rule).collect();
-    }
+    said(value!({
+        "type": "object",
+        "properties": properties,
+        "additionalProperties": false,
+        "required": (!required.is_empty()).then_some(required),
+        "description": (!form.sentence.is_empty()).then(|| plain(form.sentence)),
+        "allOf": (!form.rules.is_empty()).then(|| form.rules.iter().map(rule).collect::<Vec<_>>()),
+    }))
+}
+
+/// A schema without what is null in it, which says nothing.
+fn said(mut schema: Value) -> Value {
+    schema.as_object_mut().into_iter().for_each(|entries| entries.retain(|_, value| !value.is_null()));
     schema
 }
 
@@ -52,19 +55,14 @@ fn property(key: &KeyForm, definitions: &mut Definitions) -> Value {
         _ => String::new(),
     };
     let told = plain(&format!("{}{unit}{default}", key.sentence));
-    if !told.is_empty() {
-        schema["description"] = value!(told.trim());
-    }
-    if let Some(default) = key.default() {
-        schema["default"] = value!(default);
-    }
-    schema
+    schema["description"] = value!(Some(told.trim()).filter(|told| !told.is_empty()));
+    schema["default"] = value!(key.default());
+    said(schema)
 }
 
 /// What a value may be.
 fn form(form: &ValueForm, definitions: &mut Definitions) -> Value {
     match form {
-        ValueForm::Anything => value!({}),
         ValueForm::Text => value!({ "type": "string" }),
         ValueForm::Name => value!({ "type": "string", "pattern": format!("[^{WHITE}]") }),
         ValueForm::Short(most) => value!({ "type": "string", "pattern": format!("[^{WHITE}]"), "maxLength": most }),
@@ -75,8 +73,9 @@ fn form(form: &ValueForm, definitions: &mut Definitions) -> Value {
         ValueForm::Boolean => value!({ "type": "boolean" }),
         ValueForm::Yes => value!({ "const": true }),
         ValueForm::Number(range) => numbers(value!("number"), range),
-        ValueForm::Whole([least, i64::MAX]) => value!({ "type": "integer", "minimum": least }),
-        ValueForm::Whole([least, most]) => value!({ "type": "integer", "minimum": least, "maximum": most }),
+        ValueForm::Whole([least, most]) => {
+            said(value!({ "type": "integer", "minimum": least, "maximum": Some(most).filter(|most| **most < i64::MAX) }))
+        }
         ValueForm::Word(words) => value!({ "enum": words }),
         ValueForm::Formula(variables, range) => {
             let mut schema = numbers(value!(["number", "string"]), range);
@@ -102,44 +101,32 @@ fn form(form: &ValueForm, definitions: &mut Definitions) -> Value {
 }
 
 fn list(list: &ListForm, definitions: &mut Definitions) -> Value {
-    let mut schema = value!({ "type": "array", "items": self::form(list.of, definitions) });
     let [least, most] = list.count;
-    if least > 0 {
-        schema["minItems"] = value!(least);
-    }
-    if most < usize::MAX {
-        schema["maxItems"] = value!(most);
-    }
-    if list.unique {
-        schema["uniqueItems"] = value!(true);
-    }
-    schema
+    said(value!({
+        "type": "array",
+        "items": self::form(list.of, definitions),
+        "minItems": (least > 0).then_some(least),
+        "maxItems": (most < usize::MAX).then_some(most),
+        "uniqueItems": list.unique.then_some(true),
+    }))
 }
 
 /// Numbers of some range; a range says nothing of strings.
 fn numbers(kind: Value, range: &NumberRange) -> Value {
-    let mut schema = value!({ "type": kind });
-    let bounds = [("minimum", range.least), ("exclusiveMinimum", range.above), ("maximum", range.most)];
-    for (name, bound) in bounds.into_iter().filter_map(|(name, bound)| Some((name, bound?))) {
-        schema[name] = value!(bound);
-    }
-    if !range.zero {
-        schema["not"] = value!({ "const": 0 });
-    }
-    schema
+    let not = (!range.zero).then(|| value!({ "const": 0 }));
+    let NumberRange { least, above, most, .. } = range;
+    said(value!({ "type": kind, "minimum": least, "exclusiveMinimum": above, "maximum": most, "not": not }))
 }
 
 fn named(named: &NamedForm, definitions: &mut Definitions) -> Value {
-    let table = reference(named.table, definitions);
-    let mut schema = value!({ "type": "object", "patternProperties": { ".*": table }, "additionalProperties": false });
-    if named.least > 0 {
-        schema["minProperties"] = value!(named.least);
-    }
-    if named.in_files {
-        schema["propertyNames"] =
-            value!({ "pattern": IN_FILES, "minLength": 1, "maxLength": LONGEST_NAME, "not": { "enum": [".", ".."] } });
-    }
-    schema
+    let names = value!({ "pattern": IN_FILES, "minLength": 1, "maxLength": LONGEST_NAME, "not": { "enum": [".", ".."] } });
+    said(value!({
+        "type": "object",
+        "patternProperties": { ".*": reference(named.table, definitions) },
+        "additionalProperties": false,
+        "minProperties": (named.least > 0).then_some(named.least),
+        "propertyNames": named.in_files.then_some(names),
+    }))
 }
 
 /// A table that is defined once.

@@ -11,23 +11,7 @@ pub fn markdown(file: &'static TableForm) -> String {
 
 /// Rows of a table, then those of the tables in it.
 fn of_table(table: &'static TableForm, path: &[&str], inline: &mut Vec<&'static str>, rows: &mut Vec<String>) {
-    let is_row = |key: &&KeyForm| !key.sentence.is_empty();
-    let all: Vec<&KeyForm> = table.all().filter(is_row).collect();
-    for together in all.chunk_by(|a, b| a.sentence == b.sentence && a.absent == b.absent) {
-        let names: Vec<String> = together.iter().map(|key| format!("`{}`", key.name)).collect();
-        rows.push(row(&names.join(", "), together[0]));
-        if let ValueForm::Table(inner) = together[0].value
-            && inner.inline
-            && !inline.contains(&inner.name)
-        {
-            inline.push(inner.name);
-            let name = together[0].name;
-            for together in inner.all().collect::<Vec<_>>().chunk_by(|a, b| a.sentence == b.sentence) {
-                let names: Vec<String> = together.iter().map(|key| format!("`{name}.{}`", key.name)).collect();
-                rows.push(row(&names.join(", "), together[0]));
-            }
-        }
-    }
+    of_keys(table, "", inline, rows);
     for key in table.all() {
         let Some(inner) = key.value.table().filter(|inner| !inner.inline) else { continue };
         let mut path = [path, &[key.name]].concat();
@@ -41,6 +25,22 @@ fn of_table(table: &'static TableForm, path: &[&str], inline: &mut Vec<&'static 
         };
         rows.push(format!("| **`{title}`** | | {} | |", inner.sentence));
         of_table(inner, &path, inline, rows);
+    }
+}
+
+/// Rows of the keys of a table, and below each that stands for a table in braces, once, those of that one.
+fn of_keys(table: &'static TableForm, above: &str, inline: &mut Vec<&'static str>, rows: &mut Vec<String>) {
+    let all: Vec<&KeyForm> = table.all().filter(|key| !key.sentence.is_empty()).collect();
+    for together in all.chunk_by(|a, b| a.sentence == b.sentence && a.absent == b.absent) {
+        let names: Vec<String> = together.iter().map(|key| format!("`{above}{}`", key.name)).collect();
+        rows.push(row(&names.join(", "), together[0]));
+        if let ValueForm::Table(inner) = together[0].value
+            && inner.inline
+            && !inline.contains(&inner.name)
+        {
+            inline.push(inner.name);
+            of_keys(inner, &format!("{}.", together[0].name), inline, rows);
+        }
     }
 }
 
@@ -59,7 +59,6 @@ impl ValueForm {
     /// What may stand there, in words.
     fn words(&self) -> String {
         match self {
-            Self::Anything => "any value".into(),
             Self::Text | Self::Name => "string".into(),
             Self::Short(most) => format!("string of at most {most} letters"),
             Self::Names => "string, or a list of them, each once".into(),

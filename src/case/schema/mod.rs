@@ -24,7 +24,7 @@ pub fn faults(table: &TableForm, text: &str) -> Option<Vec<(String, String)>> {
 }
 
 #[cfg(test)]
-pub use crate::case::keys::asking::never_asked;
+pub use crate::case::keys::never_asked;
 
 #[cfg(test)]
 mod tests;

@@ -2,8 +2,7 @@ use std::path::Path;
 
 use super::*;
 use crate::case::Case;
-use crate::case::keys::ValueForm;
-use crate::case::keys::asking::tables;
+use crate::case::keys::{ValueForm, tables};
 
 /// A case with what no case of the project has.
 const REST: &str = r#"
