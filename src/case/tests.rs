@@ -242,6 +242,17 @@ fn overrides_win_and_are_checked() {
 }
 
 #[test]
+fn a_tool_has_no_boundary_of_another_whose_name_goes_on() {
+    let tools = "[rigid.die]\nline = [[0, 0], [1, 0], [1, 1]]\n[rigid.die2]\nline = [[3, 0], [4, 0]]\n";
+    let contacts = "[contact.c]\nbetween = ['p', 'rigid.die.1']\n[contact.d]\nbetween = ['q', 'rigid.die2']\n";
+    let case = parse(&format!("{LEAST}{tools}{contacts}"), &[]).unwrap();
+    let tool = |boundary: &str| case.tool_of(boundary).map(|tool| (tool.key(), tool.parts_of(boundary).len()));
+    assert_eq!((tool("rigid.die"), tool("rigid.die.2")), (Some(("rigid.die", 2)), Some(("rigid.die", 1))));
+    assert_eq!((tool("rigid.die2"), tool("rigid.die2.1")), (Some(("rigid.die2", 1)), None));
+    assert_eq!([tool("rigid.die.0"), tool("rigid.die.3"), tool("rigid.di")], [None; 3]);
+}
+
+#[test]
 fn the_file_names_the_case() {
     let name = |file: &str| Case::parse(LEAST, Path::new(file), &[]).unwrap().name;
     assert_eq!(name("cases/two_bars/case.toml"), "two_bars");

@@ -1,5 +1,7 @@
 //! `[rigid.NAME]`: rigid tools; and boundaries of bodies that stay rigid.
 
+use std::slice;
+
 use toml::Value;
 
 use super::motion::{ABOUT, CARRIED, MOTION, read_motion};
@@ -53,10 +55,14 @@ impl Tool {
         &self.motion.key
     }
 
-    /// The curves of a boundary that it has: all, or one.
-    pub fn parts_of(&self, boundary: &str) -> impl Iterator<Item = &SurfacePart> {
-        let number = boundary.strip_prefix(self.key()).and_then(|rest| rest.strip_prefix('.')?.parse::<usize>().ok());
-        self.surface.iter().enumerate().filter(move |(k, _)| number.is_none_or(|number| number == k + 1)).map(|(_, part)| part)
+    /// The curves of a boundary that it has: all, or one; none of any other boundary.
+    pub fn parts_of(&self, boundary: &str) -> &[SurfacePart] {
+        let part = |number: &str| self.surface.get(number.strip_prefix('.')?.parse::<usize>().ok()?.checked_sub(1)?);
+        match boundary.strip_prefix(self.key()) {
+            Some("") => &self.surface,
+            Some(number) if self.surface.len() > 1 => part(number).map(slice::from_ref).unwrap_or_default(),
+            _ => &[],
+        }
     }
 
     /// The first corner (from 1) that is too blunt to be taken for one, and its angle in degrees: boundaries that turn by less than
@@ -72,12 +78,7 @@ impl Tool {
 
     /// Whether a boundary is its surface, or a part of that.
     pub fn has(&self, boundary: &str) -> bool {
-        let part = boundary.strip_prefix(self.key()).map(|rest| rest.strip_prefix('.').unwrap_or(rest));
-        match part {
-            Some("") => boundary == self.key(),
-            Some(number) => self.surface.len() > 1 && number.parse().is_ok_and(|k: usize| k >= 1 && k <= self.surface.len()),
-            None => false,
-        }
+        !self.parts_of(boundary).is_empty()
     }
 }
 

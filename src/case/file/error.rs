@@ -107,9 +107,9 @@ fn plain_syntax(message: &str) -> String {
 }
 
 /// Dotted key for people: names on one line, cut if they are long.
-pub(crate) fn told(path: &[String]) -> String {
-    let short = |name: &String| if name.chars().any(char::is_control) { format!("\"{}\"", Quote(name)) } else { cut(name) };
-    path.iter().map(short).collect::<Vec<_>>().join(".")
+pub(crate) fn told(path: &[impl AsRef<str>]) -> String {
+    let short = |name: &str| if name.chars().any(char::is_control) { format!("\"{}\"", Quote(name)) } else { cut(name) };
+    path.iter().map(|name| short(name.as_ref())).collect::<Vec<_>>().join(".")
 }
 
 /// A name as [`dotted`] has it, but for what is too long.

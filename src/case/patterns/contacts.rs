@@ -3,7 +3,7 @@
 use super::expansion::{Expansion, Matched, strings, table_at};
 use super::mesh_names::MeshNames;
 use super::spreading::SpreadTables;
-use super::wildcard::{is_pattern, matches};
+use super::wildcard::is_pattern;
 use crate::case::acting::rigid::{Tool, read_tool};
 use crate::case::file::error::listed;
 use crate::case::file::log::Log;
@@ -12,7 +12,7 @@ use crate::case::schema::CASE;
 use crate::contact::{CloseSide, close_sides};
 use crate::geometry::Quote;
 use std::cell::RefCell;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use toml::{Table, Value};
 
 /// Physical curves, or a rigid surface, that are one side of a contact.
@@ -31,18 +31,15 @@ impl Expansion<'_> {
         let joined: HashSet<[SideNames; 2]> = plain().filter_map(|(_, table)| both_sides(table)).map(in_order).collect();
         let mut spread = SpreadTables::new();
         for (name, table) in &tables {
-            if !has_patterns(table) {
-                spread.keep(name, table);
-                continue;
-            }
-            let Some([first, second]) = table.get("between").and_then(Value::as_array).map(Vec::as_slice) else {
+            let between = table.get("between").and_then(Value::as_array).map(Vec::as_slice);
+            let Some([first, second]) = between.filter(|_| has_patterns(table)) else {
                 spread.keep(name, table);
                 continue;
             };
             let sides = [first, second].map(|side| self.sides(name, side, mesh, &tools));
-            let pairs: Vec<[SideNames; 2]> =
-                if sides.iter().any(Vec::is_empty) { Vec::new() } else { close(&sides, mesh, &tools) };
-            if pairs.is_empty() && sides.iter().all(|all| !all.is_empty()) {
+            let is_known = sides.iter().all(|all| !all.is_empty());
+            let pairs = if is_known { close(&sides, mesh, &tools) } else { Vec::new() };
+            if is_known && pairs.is_empty() {
                 let there = |all: &[SideNames]| listed(all.iter().map(|side| format!("\"{}\"", Quote(&side.join(" + ")))));
                 let words = format!(
                     "no two of these lie close and face each other: {}, and {}; name two of them, or correct the mesh",
@@ -78,41 +75,35 @@ impl Expansion<'_> {
             }
             return vec![names.into_iter().map(String::from).collect()];
         }
-        if !side.is_array() {
-            let matched: Vec<String> = known.iter().filter(|name| matches(names[0], name)).cloned().collect();
-            if matched.is_empty() {
-                return self.matching(&path, names[0], &known, "physical curve").into_iter().map(|name| vec![name]).collect();
-            }
-            return matched.into_iter().map(|name| vec![name]).collect();
-        }
         let before = self.matched.len();
-        let all = self.names(&path, side, &mesh.boundaries, "physical curve");
+        let all = match side.is_array() {
+            true => self.names(&path, side, &mesh.boundaries, "physical curve"),
+            false => self.matching(&path, names[0], &known, "physical curve"),
+        };
         self.matched.truncate(before);
-        mesh.of_each_body(all).into_iter().map(|(_, curves)| curves).collect()
+        match side.is_array() {
+            true => mesh.of_each_body(all).into_iter().map(|(_, curves)| curves).collect(),
+            false => all.into_iter().map(|name| vec![name]).collect(),
+        }
     }
 }
 
 /// Pairs of these sides that lie close, each once, in their order.
 fn close(sides: &[Vec<SideNames>; 2], mesh: &MeshNames, tools: &[Tool]) -> Vec<[SideNames; 2]> {
-    let mut numbers: HashMap<&SideNames, usize> = HashMap::new();
-    let (mut names, mut places, mut among) = (Vec::new(), Vec::new(), Vec::<[bool; 2]>::new());
-    for (k, side) in (0..2).flat_map(|k| sides[k].iter().map(move |side| (k, side))) {
-        if let Some(&number) = numbers.get(side) {
-            among[number][k] = true;
-            continue;
-        }
+    let of: [HashSet<&SideNames>; 2] = sides.each_ref().map(|all| all.iter().collect());
+    let (mut seen, mut names, mut places) = (HashSet::new(), Vec::new(), Vec::new());
+    for side in sides.iter().flatten().filter(|side| seen.insert(*side)) {
         let boundaries = side.iter().filter_map(|name| mesh.mesh.boundary(name));
-        let of_tool = || tools.iter().find(|tool| side.iter().any(|name| tool.has(name)));
-        let place = match of_tool() {
-            Some(tool) => Some(CloseSide::of_tool(tool.parts_of(&side[0]))),
+        let mut of_tools = tools.iter().flat_map(|tool| side.iter().map(|name| tool.parts_of(name)));
+        let place = match of_tools.find(|parts| !parts.is_empty()) {
+            Some(parts) => Some(CloseSide::of_tool(parts.iter())),
             None => CloseSide::of_boundaries(&mesh.mesh, boundaries),
         };
         let Some(place) = place else { continue };
-        numbers.insert(side, names.len());
         names.push(side);
         places.push(place);
-        among.push([k == 0, k == 1]);
     }
+    let among: Vec<[bool; 2]> = names.iter().map(|name| of.each_ref().map(|of| of.contains(name))).collect();
     let is_in_order = |a: usize, b: usize| among[a][0] && among[b][1];
     let pairs = close_sides(&mesh.mesh, &places, |a, b| is_in_order(a, b) || is_in_order(b, a));
     let mut pairs: Vec<[usize; 2]> = pairs

@@ -32,8 +32,7 @@ pub struct Expansion<'a> {
 
 impl Expansion<'_> {
     pub fn problem(&mut self, path: &[&str], value: Option<&Value>, words: String) {
-        let path: Vec<String> = path.iter().map(|name| (*name).to_owned()).collect();
-        self.log.problems.push(Problem { key: told(&path), value: value.map(quoted), words });
+        self.log.problems.push(Problem { key: told(path), value: value.map(quoted), words });
     }
 
     /// The names that a pattern at a key stands for; one that stands for none is a problem.
@@ -45,9 +44,8 @@ impl Expansion<'_> {
             let words = format!("no {kind} has a name like \"{}\"; {there}", Quote(pattern));
             self.problem(path, None, words);
         } else {
-            let key = path.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
             let is_key = path.last() == Some(&pattern);
-            let place = if is_key { told(&key) } else { format!("{} = \"{}\"", told(&key), Quote(pattern)) };
+            let place = if is_key { told(path) } else { format!("{} = \"{}\"", told(path), Quote(pattern)) };
             self.matched.push(Matched { place, kind, names: names.clone() });
         }
         names
@@ -60,6 +58,23 @@ impl Expansion<'_> {
         names.filter(|name| !standing.contains(name) && !is_pattern(name)).cloned().collect()
     }
 
+    /// What a table that has patterns in it stands for.
+    fn stands_for(&self, kind: &str, name: &str) -> Option<Vec<String>> {
+        let one = self.standing.get(kind).into_iter().flatten().find(|one| one.name == name);
+        one.map(|one| one.names.clone())
+    }
+
+    /// The value of a key in each table of a kind that has it, with the name of the table.
+    fn values(&self, kind: &str, key: &str) -> Vec<(String, Value)> {
+        let tables = table_at(&self.table, &[kind]).into_iter().flatten();
+        tables.filter_map(|(name, table)| Some((name.clone(), table.get(key)?.clone()))).collect()
+    }
+
+    /// Writes another value in the place of one.
+    fn replace(&mut self, path: [&str; 3], value: Value) {
+        set_value(&mut self.table, &path.map(str::to_owned), value).expect("a value stands there already");
+    }
+
     /// Tables whose names are patterns, or of tables with patterns in them, become tables of what they stand for.
     pub fn write_out_names(&mut self, path: &[&str], known: &[String], kind: &'static str) {
         let Some(tables) = table_at(&self.table, path).cloned() else { return };
@@ -67,9 +82,8 @@ impl Expansion<'_> {
         let mut standing = Vec::new();
         let own: HashSet<&String> = known.iter().collect();
         for name in tables.keys().filter(|name| !own.contains(name)) {
-            let spread = self.standing.get(of_kind).into_iter().flatten().find(|one| one.name == *name);
-            let (names, is_pattern) = match spread {
-                Some(one) => (one.names.clone(), false),
+            let (names, is_pattern) = match self.stands_for(of_kind, name) {
+                Some(names) => (names, false),
                 None if is_pattern(name) => (self.matching(&[path, &[name]].concat(), name, known, kind), true),
                 None => continue,
             };
@@ -106,13 +120,12 @@ impl Expansion<'_> {
 
     /// Values that are names, or lists of them.
     pub fn write_out_values(&mut self, kind: &'static str, key: &'static str, known: &[String], what: &'static str) {
-        for name in keys_of(&self.table, kind) {
-            let path = [kind, name.as_str(), key];
-            let value = value_at(&self.table, &path.map(str::to_owned)).cloned();
-            let Some(value) = value.filter(|value| strings(value).into_iter().any(is_pattern)) else { continue };
-            let names = self.names(&path, &value, known, what);
-            let names = Value::Array(names.into_iter().map(Value::String).collect());
-            set_value(&mut self.table, &path.map(str::to_owned), names).expect("a value stands there already");
+        for (name, value) in self.values(kind, key) {
+            if strings(&value).into_iter().any(is_pattern) {
+                let path = [kind, &name, key];
+                let names = self.names(&path, &value, known, what);
+                self.replace(path, names.into());
+            }
         }
     }
 
@@ -132,25 +145,19 @@ impl Expansion<'_> {
 
     /// A probe asks the body that has its point.
     pub fn write_out_probes(&mut self, mesh: &MeshNames) {
-        for name in keys_of(&self.table, "probe") {
+        for (name, value) in self.values("probe", "body") {
+            let Some(pattern) = value.as_str().filter(|text| is_pattern(text)) else { continue };
             let path = ["probe", name.as_str(), "body"];
-            let value = value_at(&self.table, &path.map(str::to_owned)).cloned();
-            let Some(pattern) = value.as_ref().and_then(Value::as_str).filter(|text| is_pattern(text)) else { continue };
             let all = self.matching(&path, pattern, &mesh.bodies, "body");
-            let point = value_at(&self.table, &["probe", &name, "point"].map(str::to_owned)).and_then(point);
+            let point = table_at(&self.table, &path[..2]).and_then(|probe| point(probe.get("point")?));
             let holding = point.map_or_else(Vec::new, |point| mesh.holding(&all, point));
             match &holding[..] {
-                [body] => {
-                    let body = Value::String(body.clone());
-                    set_value(&mut self.table, &path.map(str::to_owned), body).expect("a value stands there already");
-                }
+                [body] => self.replace(path, body.as_str().into()),
                 [] if all.is_empty() || point.is_none() => {}
-                [] => {
-                    self.problem(&path, value.as_ref(), "none of these bodies has the point of the probe; move it inside".into())
-                }
+                [] => self.problem(&path, Some(&value), "none of these bodies has the point of the probe; move it inside".into()),
                 [first, second, ..] => {
                     let words = format!("\"{first}\" and \"{second}\" touch at the point of the probe; name one of them");
-                    self.problem(&path, value.as_ref(), words);
+                    self.problem(&path, Some(&value), words);
                 }
             }
         }
@@ -158,33 +165,27 @@ impl Expansion<'_> {
 
     /// Keys that load steps scale: those of all tables that a name stands for.
     pub fn write_out_scales(&mut self) {
-        for name in keys_of(&self.table, "steps") {
-            let path = ["steps", &name, "scales"].map(str::to_owned);
-            let Some(value) = value_at(&self.table, &path).cloned() else { continue };
+        for (name, value) in self.values("steps", "scales") {
+            let path = ["steps", name.as_str(), "scales"];
             let mut scales: Vec<String> = Vec::new();
             for key in strings(&value) {
                 let parts = read_key(key).unwrap_or_default();
-                let [kind, of, rest @ ..] = &parts[..] else {
-                    scales.push(key.into());
-                    continue;
-                };
-                let spread = self.standing.get(kind.as_str()).into_iter().flatten().find(|one| one.name == *of);
-                let names = match spread {
-                    Some(one) => one.names.clone(),
-                    None if is_pattern(of) => {
-                        let known = keys_of(&self.table, kind);
-                        self.matching(&["steps", &name, "scales"], of, &known, "table")
+                let names = match &parts[..] {
+                    [kind, of, ..] if is_pattern(of) && self.stands_for(kind, of).is_none() => {
+                        Some(self.matching(&path, of, &keys_of(&self.table, kind), "table"))
                     }
-                    None => {
-                        scales.push(key.into());
-                        continue;
-                    }
+                    [kind, of, ..] => self.stands_for(kind, of),
+                    _ => None,
                 };
-                scales.extend(names.into_iter().map(|name| dotted(&[&[kind.clone(), name][..], rest].concat())));
+                match names {
+                    None => scales.push(key.into()),
+                    Some(names) => {
+                        scales.extend(names.into_iter().map(|name| dotted(&[&parts[..1], &[name], &parts[2..]].concat())))
+                    }
+                }
             }
             if strings(&value) != scales {
-                let scales = Value::Array(scales.into_iter().map(Value::String).collect());
-                set_value(&mut self.table, &path, scales).expect("a value stands there already");
+                self.replace(path, scales.into());
             }
         }
     }

@@ -31,25 +31,25 @@ pub fn merged(path: &[String], tables: &Table, standing: &[StandsFor], whole: &s
     }
     above.values_mut().for_each(|all| all.sort_by_key(|one| one.rank()));
     let gone: HashSet<&str> = standing.iter().map(|one| one.name.as_str()).collect();
+    let above = |name: &str| above.get(name).map(Vec::as_slice).unwrap_or_default();
     let mut result = Table::new();
-    for (name, value) in tables.iter() {
-        let is_gone = gone.contains(name.as_str());
-        let own = standing.iter().filter(|one| is_gone && one.name == *name).flat_map(|one| &one.names);
-        let fresh: Vec<&String> = if is_gone { own.filter(|own| !tables.contains_key(*own)).collect() } else { vec![name] };
-        for name in fresh {
-            if is_gone && result.contains_key(name) {
-                continue;
+    for (name, value) in tables {
+        if !gone.contains(name.as_str()) {
+            let mut value = value.clone();
+            if let Value::Table(own) = &mut value
+                && !own.contains_key(whole)
+            {
+                let mut all = given(path, name, Some(own), tables, above(name), problems);
+                all.extend(std::mem::take(own));
+                *own = all;
             }
-            let own = if is_gone { None } else { Some(value) };
-            let takes = own.is_none_or(|own| own.as_table().is_some_and(|own| !own.contains_key(whole)));
-            let above = above.get(name.as_str()).filter(|_| takes).map(Vec::as_slice).unwrap_or_default();
-            let mut all = given(path, name, own.and_then(Value::as_table), tables, above, problems);
-            match own {
-                Some(Value::Table(own)) => all.extend(own.clone()),
-                Some(other) => _ = result.insert(name.clone(), other.clone()),
-                None => {}
+            result.insert(name.clone(), value);
+            continue;
+        }
+        for fresh in standing.iter().filter(|one| one.name == *name).flat_map(|one| &one.names) {
+            if !tables.contains_key(fresh) && !result.contains_key(fresh) {
+                result.insert(fresh.clone(), Value::Table(given(path, fresh, None, tables, above(fresh), problems)));
             }
-            result.entry(name.clone()).or_insert(Value::Table(all));
         }
     }
     result

@@ -1,5 +1,6 @@
 //! The mesh of a case with patterns: what names there are, and what lies where.
 
+use crate::case::keys::values::number;
 use crate::geometry::{Point, cross};
 use crate::mesh::{Boundary, MacroMesh};
 use toml::Value;
@@ -73,9 +74,8 @@ impl MeshNames {
 
 /// The point that a value says.
 pub fn point(value: &Value) -> Option<Point> {
-    let number = |value: &Value| value.as_float().or(value.as_integer().map(|whole| whole as f64));
     match &value.as_array()?[..] {
-        [x, y] => Some(Point::new(number(x)?, number(y)?)),
+        [x, y] => Some(Point::new(number(x).ok()?, number(y).ok()?)),
         _ => None,
     }
 }
