@@ -7,7 +7,6 @@ use toml::Table;
 
 use super::acting::mean::check_means;
 use super::acting::rigid::read_tool;
-use super::acting::spot::check_spots;
 use super::acting::{load, support};
 use super::asked::solver::read_solver;
 use super::asked::{accuracy, exact, output, steps};
@@ -137,11 +136,12 @@ impl Case {
         let bodies = root.named("body", |section| body::read_body(section, plane, gravity));
         let tools = root.named("rigid", read_tool);
         let geometries = root.named("geometry", geometry::read_geometry);
-        let (supports, springs, means) = support::split(root.named("support", support::read_support));
-        let (loads, point_loads, plates) = load::split_loads(root.named("load", load::read_load));
-        let (contacts, unions) = sides::split_contacts(root.named("contact", |section| read_contact(section, root)));
-        let (solver, output) = (read_solver(root), output::read_output(root));
-        let probes = root.named("probe", output::read_probe);
+        let (supports, springs, means) = support::split(root.named("support", |section| support::read_support(section, root)));
+        let (loads, point_loads, plates) = load::split_loads(root.named("load", |section| load::read_load(section, root)));
+        let mut unions = Vec::new();
+        let contacts = root.named("contact", |section| read_contact(section, root, &mut unions));
+        let (solver, output) = (read_solver(root), output::read_output(root, plane));
+        let probes = root.named("probe", |section| output::read_probe(section, root));
         let exact = exact::read_exact(root, plane);
         let accuracy = accuracy::read_accuracy(root, &contacts, &probes);
         let factors = root.named("steps", steps::read_factor);
@@ -149,15 +149,10 @@ impl Case {
         body::check_parts(&bodies, root);
         check_gravity(gravity, root);
         geometry::check_geometries(&geometries, root);
-        output::check_probes(&probes, root);
-        output::check_figures(&output, plane, root);
         check_means(&means, root);
-        check_spots("support", supports.iter().filter_map(|support| Some((&support.name, support.at.as_ref()?))), root);
-        check_spots("load", point_loads.iter().map(|load| (&load.name, &load.at)), root);
         accuracy::check_energy(accuracy.as_ref(), &point_loads, root);
         sides::check_contacts(&contacts, &unions, &geometries, root);
         check_tools(&tools, &contacts, root);
-        exact::check_exact(&exact, root);
         steps::check_steps(&factors, root);
         revolution::check(plane, &bodies, gravity, root);
         let case = Self {

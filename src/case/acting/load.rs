@@ -68,8 +68,8 @@ pub fn split_loads(all: Vec<LoadTable>) -> (Vec<Load>, Vec<PointLoad>, Vec<Plate
 }
 
 /// `[load.NAME]`; its curves alone are enough to look for names.
-pub fn read_load(section: &Section) -> Option<LoadTable> {
-    let place = read_where(section, ON, AT, BODY);
+pub fn read_load(section: &Section, root: &Section) -> Option<LoadTable> {
+    let place = read_where(section, root, ON, AT, BODY);
     let name = section.name().to_string();
     if section.has("at") {
         section.refuse(&["pressure", "traction"], "acts on physical curves; at a point give force = [fx, fy]");

@@ -122,11 +122,8 @@ pub fn read_mean(section: &Section, body: Key<String>) -> Option<MeanSupport> {
         let words = "holds no mean motion; give ux, uy or angle, along beside direction, tangential beside about, or several of them, as in ux = 0.0";
         section.problem(&[], words.into());
     }
-    let held = ways.into_iter().filter_map(|(key, way)| {
-        let value = section.optional(key);
-        Some((key.form.name, way?, value?))
-    });
-    let held = held.collect();
+    let values = ways.map(|(key, way)| (key.form.name, way, section.optional(key)));
+    let held = values.into_iter().filter_map(|(key, way, value)| Some((key, way?, value?))).collect();
     let body = section.required(body)?;
     Some(MeanSupport { name: section.name().into(), body, held })
 }

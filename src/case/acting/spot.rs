@@ -11,8 +11,14 @@ pub struct Where {
     pub at: Option<Spot>,
 }
 
-/// `on`, or `at` and perhaps `body`.
-pub fn read_where(section: &Section, on: Key<Vec<String>>, at: Key<[f64; 2]>, body: Key<String>) -> Option<Where> {
+/// `on`, or `at` and perhaps `body`, which is one of the case.
+pub fn read_where(
+    section: &Section,
+    root: &Section,
+    on: Key<Vec<String>>,
+    at: Key<[f64; 2]>,
+    body: Key<String>,
+) -> Option<Where> {
     let (at, body) = (section.optional(at), section.optional(body));
     if !section.has("at") {
         if section.has("body") {
@@ -25,13 +31,9 @@ pub fn read_where(section: &Section, on: Key<Vec<String>>, at: Key<[f64; 2]>, bo
         section.problem(&["at"], "stands beside on; give physical curves or a point, or make two tables".into());
         return None;
     }
-    Some(Where { on: Vec::new(), at: Some(Spot { place: at?, body }) })
-}
-
-/// Points ask for bodies of the case; `table` holds them under these names.
-pub fn check_spots<'a>(table: &str, all: impl Iterator<Item = (&'a String, &'a Spot)>, root: &Section) {
-    for (name, spot) in all {
-        let Some(body) = &spot.body else { continue };
-        root.check_name(&[table, name, "body"], "body", body, root.names_below("body"));
+    let place = at?;
+    if let Some(body) = &body {
+        section.check_name(&["body"], "body", body, root.names_below("body"));
     }
+    Some(Where { on: Vec::new(), at: Some(Spot { place, body }) })
 }

@@ -75,14 +75,14 @@ pub fn split(all: Vec<SupportTable>) -> (Vec<Support>, Vec<Springs>, Vec<MeanSup
 }
 
 /// `[support.NAME]`
-pub fn read_support(section: &Section) -> Option<SupportTable> {
+pub fn read_support(section: &Section, root: &Section) -> Option<SupportTable> {
     if section.has("mean") {
         return read_mean(section, BODY).map(SupportTable::Mean);
     }
     if section.has("stiffness") {
         return read_springs(section, ON).map(SupportTable::Elastic);
     }
-    let place = read_where(section, ON, AT, BODY);
+    let place = read_where(section, root, ON, AT, BODY);
     let given = ["ux", "uy", "normal"].map(|key| section.has(key));
     let [ux, uy, normal] = [UX, UY, NORMAL].map(|key| section.optional(key));
     match given {

@@ -86,13 +86,6 @@ const fn goal(name: &'static str) -> Key<f64> {
 /// Tolerances of [`GOALS`].
 type ContactTolerances = [Option<f64>; 4];
 
-/// `[accuracy.contact.NAME]`
-struct Single {
-    name: String,
-    own: ContactTolerances,
-    is_empty: bool,
-}
-
 /// `accuracy = 1e-4`, or `[accuracy]`; nothing if the case has neither, or if the log knows what is wrong.
 pub fn read_accuracy(root: &Section, contacts: &[Pair], probes: &[Probe]) -> Option<Accuracy> {
     if !root.has("accuracy") {
@@ -105,14 +98,15 @@ pub fn read_accuracy(root: &Section, contacts: &[Pair], probes: &[Probe]) -> Opt
     let section = root.table("accuracy");
     let energy = section.optional(ENERGY);
     let all = GOALS.map(|key| section.optional(key));
-    let single = section.named("contact", |section| {
-        let own = GOALS.map(|key| section.optional(key));
-        Some(Single { name: section.name().into(), own, is_empty: !section.has_any(&GOAL_KEYS) })
-    });
+    let single = section.named("contact", |section| read_single(section, contacts, root));
     let [displacement, stress] = [DISPLACEMENT, STRESS].map(|key| section.optional(key));
     let (most_unknowns, most_seconds) = (section.optional(MAX_UNKNOWNS), section.optional(MAX_SECONDS));
-    check_contacts(&section, root, &single);
-    check_ends(&section, contacts, &single);
+    if root.names_below("contact").next().is_none() {
+        section.refuse(&GOAL_KEYS, "there is no contact in this case; leave it out, or ask for energy");
+    }
+    if section.has("ends") && !contacts.is_empty() && contacts.iter().all(|pair| pair.law == Law::Bilateral) {
+        section.problem(&["ends"], no_ends("every contact is"));
+    }
     if probes.is_empty() && root.names_below("probe").next().is_none() {
         section.refuse(&["displacement", "stress"], "there is no point to look at; write [probe.NAME] with point and body");
     }
@@ -121,7 +115,7 @@ pub fn read_accuracy(root: &Section, contacts: &[Pair], probes: &[Probe]) -> Opt
     }
     let mut goals: Vec<Goal> = energy.map(|tolerance| Goal { quantity: Quantity::Energy, tolerance }).into_iter().collect();
     for pair in contacts {
-        let own = single.iter().find(|single| single.name == pair.name).map_or_else(Default::default, |single| single.own);
+        let own = single.iter().find(|(name, _)| *name == pair.name).map_or_else(Default::default, |(_, own)| *own);
         goals.extend(goals_of(pair, all, own));
     }
     goals.extend(probes.iter().flat_map(|probe| goals_at(probe, displacement, stress)));
@@ -141,35 +135,25 @@ pub fn check_energy(accuracy: Option<&Accuracy>, loads: &[PointLoad], root: &Sec
     }
 }
 
-/// What is asked of contacts has contacts that it can be asked of.
-fn check_contacts(section: &Section, root: &Section, single: &[Single]) {
-    for Single { name, is_empty, .. } in single {
-        root.check_name(&["accuracy", "contact", name], "contact", name, root.names_below("contact"));
-        if *is_empty && root.names_below("contact").any(|known| known == name) {
-            section.problem(&["contact", name], "asks for nothing; give force, pressure, peak or ends".into());
-        }
+/// `[accuracy.contact.NAME]`: a contact of the case, and what is asked of it.
+fn read_single(section: &Section, contacts: &[Pair], root: &Section) -> Option<(String, ContactTolerances)> {
+    let name = section.name();
+    let own = GOALS.map(|key| section.optional(key));
+    section.check_name(&[], "contact", name, root.names_below("contact"));
+    if !section.has_any(&GOAL_KEYS) && root.names_below("contact").any(|known| known == name) {
+        section.problem(&[], "asks for nothing; give force, pressure, peak or ends".into());
     }
-    if root.names_below("contact").next().is_none() {
-        section.refuse(&GOAL_KEYS, "there is no contact in this case; leave it out, or ask for energy");
+    if own[ENDS_AT].is_some() && contacts.iter().any(|pair| pair.name == name && pair.law == Law::Bilateral) {
+        section.problem(&["ends"], no_ends(&format!("contact.{name} is")));
     }
+    Some((name.into(), own))
 }
 
 /// Only unilateral contact ends where the solution says.
-fn check_ends(section: &Section, contacts: &[Pair], single: &[Single]) {
-    let words = |which: &str| {
-        format!(
-            "{which} bilateral, presses and pulls all along, and has no ends to be found; leave it out, or give law = \"unilateral\""
-        )
-    };
-    for Single { name, own, .. } in single {
-        let is_bilateral = contacts.iter().any(|pair| pair.name == *name && pair.law == Law::Bilateral);
-        if own[ENDS_AT].is_some() && is_bilateral {
-            section.problem(&["contact", name, "ends"], words(&format!("contact.{name} is")));
-        }
-    }
-    if section.has("ends") && !contacts.is_empty() && contacts.iter().all(|pair| pair.law == Law::Bilateral) {
-        section.problem(&["ends"], words("every contact is"));
-    }
+fn no_ends(which: &str) -> String {
+    format!(
+        "{which} bilateral, presses and pulls all along, and has no ends to be found; leave it out, or give law = \"unilateral\""
+    )
 }
 
 /// Goals of one contact: its own before those of all. The ends of bilateral contact are known.

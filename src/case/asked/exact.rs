@@ -170,13 +170,13 @@ pub struct ExpectedDisplacement {
     pub tolerance: f64,
 }
 
-/// `[exact]`
+/// `[exact]`; everything that is expected belongs to a contact or a body of the case.
 pub fn read_exact(root: &Section, plane: Plane) -> Exact {
     let section = root.table("exact");
     let must_hold = section.or_default(MUST_HOLD);
     let energy = read_expected(&section, "energy");
-    let contacts = section.named("contact", read_contact);
-    let bodies = section.named("body", |section| read_body(section, plane));
+    let contacts = section.named("contact", |section| read_contact(section, root));
+    let bodies = section.named("body", |section| read_body(section, plane, root));
     Exact { must_hold, energy, contacts, bodies }
 }
 
@@ -187,7 +187,8 @@ fn read_expected(section: &Section, key: &'static str) -> Option<Expected> {
     Some(Expected { value: value?, tolerance: tolerance? })
 }
 
-fn read_contact(section: &Section) -> Option<ContactExact> {
+fn read_contact(section: &Section, root: &Section) -> Option<ContactExact> {
+    section.check_name(&[], "contact", section.name(), root.names_below("contact"));
     let force = read_expected(section, "force");
     let lambda = section.optional_table("lambda").and_then(|lambda| read_lambda(&lambda));
     Some(ContactExact { name: section.name().into(), force, lambda })
@@ -207,7 +208,8 @@ fn read_lambda(section: &Section) -> Option<LambdaExact> {
     Some(LambdaExact::Formula { formula: formula?, tolerance: tolerance? })
 }
 
-fn read_body(section: &Section, plane: Plane) -> Option<BodyExact> {
+fn read_body(section: &Section, plane: Plane, root: &Section) -> Option<BodyExact> {
+    section.check_name(&[], "body", section.name(), region_names(root).into_iter());
     let displacement = section.optional_table("displacement").and_then(|displacement| {
         let tolerance = displacement.required(TOLERANCE);
         let (at, value) = read_points(&displacement, DISPLACEMENTS)?;
@@ -243,14 +245,4 @@ fn read_points<T: FromValue>(section: &Section, value: Key<Vec<T>>) -> Option<(V
         return None;
     }
     Some((at, value))
-}
-
-/// Everything that is expected belongs to a contact or a body of the case.
-pub fn check_exact(exact: &Exact, root: &Section) {
-    for contact in &exact.contacts {
-        root.check_name(&["exact", "contact", &contact.name], "contact", &contact.name, root.names_below("contact"));
-    }
-    for body in &exact.bodies {
-        root.check_name(&["exact", "body", &body.name], "body", &body.name, region_names(root).into_iter());
-    }
 }

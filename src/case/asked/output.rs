@@ -77,14 +77,10 @@ pub struct Probe {
     pub body: String,
 }
 
-/// `[output]`
-pub fn read_output(root: &Section) -> Output {
+/// `[output]`. Stresses have names of their own in bodies of revolution, where zz is the axis to some and the hoop to others.
+pub fn read_output(root: &Section, plane: Plane) -> Output {
     let section = root.table("output");
-    Output { fields: section.or_default(FIELDS), figures: section.or_default(FIGURES) }
-}
-
-/// Stresses have names of their own in bodies of revolution, where zz is the axis to some and the hoop to others.
-pub fn check_figures(output: &Output, plane: Plane, root: &Section) {
+    let output = Output { fields: section.or_default(FIELDS), figures: section.or_default(FIGURES) };
     let is_for_others = |measure: &StressMeasure| match measure {
         StressMeasure::Zz => plane == Plane::Revolution,
         StressMeasure::Radial | StressMeasure::Hoop => plane != Plane::Revolution,
@@ -99,25 +95,21 @@ pub fn check_figures(output: &Output, plane: Plane, root: &Section) {
                 "\"sigma_rr\" and \"sigma_tt\" are for bodies of revolution: write \"sigma_xx\", and \"sigma_zz\" for the stress across the plane"
             }
         };
-        root.problem(&["output", "figures"], words.into());
+        section.problem(&["figures"], words.into());
     }
+    output
 }
 
 /// `units`
 pub fn read_units(root: &Section) -> UnitNames {
-    let Some(section) = root.optional_table("units") else { return UnitNames::default() };
+    let section = root.table("units");
     UnitNames { length: section.optional(LENGTH), force: section.optional(FORCE) }
 }
 
-/// `[probe.NAME]`
-pub fn read_probe(section: &Section) -> Option<Probe> {
+/// `[probe.NAME]`, which asks a body of the case, or a part of one.
+pub fn read_probe(section: &Section, root: &Section) -> Option<Probe> {
     let (point, body) = (section.required(PROBED), section.required(BODY));
-    Some(Probe { name: section.name().into(), point: point?, body: body? })
-}
-
-/// Probes ask bodies of the case, or parts of them.
-pub fn check_probes(probes: &[Probe], root: &Section) {
-    for probe in probes {
-        root.check_name(&["probe", &probe.name, "body"], "body", &probe.body, region_names(root).into_iter());
-    }
+    let (point, body) = (point?, body?);
+    section.check_name(&["body"], "body", &body, region_names(root).into_iter());
+    Some(Probe { name: section.name().into(), point, body })
 }

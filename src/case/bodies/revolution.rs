@@ -3,6 +3,7 @@
 use super::gravity::Gravity;
 use crate::body::Body;
 use crate::case::keys::Section;
+use crate::case::keys::values::number;
 use crate::element::Plane;
 use toml::Value;
 
@@ -44,14 +45,9 @@ pub fn check(plane: Plane, bodies: &[Body], gravity: Gravity, root: &Section) {
                 root.problem(&[kind, name, key], words.into());
             }
             let force = table.get("force").and_then(Value::as_array).and_then(|force| force.first());
-            if force.and_then(number).is_some_and(|x| x != 0.0) {
+            if force.is_some_and(|x| number(x).is_ok_and(|x| x != 0.0)) {
                 root.problem(&[kind, name, "force"], "acts along the axis of revolution alone; its x component must be 0".into());
             }
         }
     }
-}
-
-/// A TOML number of either kind.
-fn number(value: &Value) -> Option<f64> {
-    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }

@@ -1,6 +1,6 @@
 //! `[contact.NAME]`
 
-use super::sides::ReadContact;
+use super::sides::Union;
 use super::table::{
     BETWEEN, CONFIGURATION, CURVE, ENDS, GAP, GRADING, LAW, MULTIPLIER, POINTS, QUADRATURE, SEGMENTS, SPANS, STABILISE,
 };
@@ -15,45 +15,45 @@ use crate::contact::{
 const CURVES: [(&str, CurveChoice); 3] =
     [("line", CurveChoice::Line), ("geometry", CurveChoice::Geometry), ("fit", CurveChoice::Fit)];
 
-/// `[contact.NAME]`; both sides alone are enough to look for names.
-pub fn read_contact(section: &Section, root: &Section) -> Option<ReadContact> {
+/// `[contact.NAME]`; both sides alone are enough to look for names. Sides of several curves have one name made of theirs, and are
+/// among `unions` from now on.
+pub fn read_contact(section: &Section, root: &Section, unions: &mut Vec<Union>) -> Option<Pair> {
     let between = section.made("between", section.required(BETWEEN), different);
     let configuration = section.or_default(CONFIGURATION);
     let usual_curve = || usual_curve(between.as_ref(), configuration, root);
     let curve = section.made("curve", section.or_else(CURVE, usual_curve), |word| chosen_curve(&word, between.as_ref()));
     let gap = section.or_default(GAP);
     let space = section.or(MULTIPLIER);
-    let segments = section.or_default(SEGMENTS);
-    let law = section.or_default(LAW);
-    let quadrature = read_quadrature(section, space);
-    let stabilise = match section.or_default(STABILISE) {
-        Some(true) => Stabilise::On,
-        Some(false) => Stabilise::Off,
-        None => Stabilise::Auto,
-    };
-    let spans = section.or_default(SPANS);
-    let grading = section.or_default(GRADING);
-    let usual_ends = || if curve.is_some_and(CurveChoice::is_found) { "free" } else { "fixed" };
-    let ends = section.or_else(ENDS, usual_ends);
-    let sides = between.clone();
     let pair = Pair {
         name: section.name().into(),
-        between: between.unwrap_or_default().map(|curves| curves.join(" + ")),
+        between: between.clone().unwrap_or_default().map(|curves| curves.join(" + ")),
         curve: curve.unwrap_or(CurveChoice::Fit),
         gap,
         space: space.unwrap_or(MultiplierSpace::P1Discontinuous),
-        segments,
-        law,
-        quadrature: quadrature.unwrap_or(Quadrature::Cut),
-        stabilise,
+        segments: section.or_default(SEGMENTS),
+        law: section.or_default(LAW),
+        quadrature: read_quadrature(section, space).unwrap_or(Quadrature::Cut),
+        stabilise: match section.or_default(STABILISE) {
+            Some(true) => Stabilise::On,
+            Some(false) => Stabilise::Off,
+            None => Stabilise::Auto,
+        },
         configuration,
-        spans,
-        grading,
-        ends: ends.unwrap_or(EndRule::Fixed),
+        spans: section.or_default(SPANS),
+        grading: section.or_default(GRADING),
+        ends: {
+            let usual = if curve.is_some_and(CurveChoice::is_found) { "free" } else { "fixed" };
+            section.or_else(ENDS, || usual).unwrap_or(EndRule::Fixed)
+        },
     };
     check_choices(&pair, section);
     check_name(section);
-    Some(ReadContact { pair, sides: sides? })
+    for (name, curves) in pair.between.iter().zip(between?) {
+        if curves.len() > 1 && !unions.iter().any(|known| known.name == *name) {
+            unions.push(Union { name: name.clone(), curves });
+        }
+    }
+    Some(pair)
 }
 
 /// What does not go together.

@@ -15,29 +15,6 @@ pub struct Union {
     pub curves: Vec<String>,
 }
 
-/// What a table `[contact.NAME]` says.
-pub struct ReadContact {
-    /// The contact; a side of several curves has one name made of theirs.
-    pub pair: Pair,
-    /// The curves of each side.
-    pub sides: [Vec<String>; 2],
-}
-
-/// The contacts, and the sides that are made of several curves.
-pub fn split_contacts(all: Vec<ReadContact>) -> (Vec<Pair>, Vec<Union>) {
-    let mut unions: Vec<Union> = Vec::new();
-    let mut pairs = Vec::new();
-    for ReadContact { pair, sides } in all {
-        for (name, curves) in pair.between.iter().zip(sides) {
-            if curves.len() > 1 && !unions.iter().any(|known| known.name == *name) {
-                unions.push(Union { name: name.clone(), curves });
-            }
-        }
-        pairs.push(pair);
-    }
-    (pairs, unions)
-}
-
 /// The physical curves of a side.
 pub fn parts(unions: &[Union], name: &String) -> Vec<String> {
     unions.iter().find(|union| union.name == *name).map_or_else(|| vec![name.clone()], |union| union.curves.clone())
