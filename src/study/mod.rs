@@ -102,9 +102,10 @@ fn make(
                     )));
                 }
                 progress.ended(&ended);
-                let record = Record::new(&plan.name, planned, &wanted[index].identity, plan.timeout, &ended);
+                let Wanted { identity, what, .. } = wanted[index].clone();
+                let record = Record { study: plan.name.clone(), what, identity, ended };
                 folder.keep(place.number, &record)?;
-                ended
+                record.ended
             }
         });
     }

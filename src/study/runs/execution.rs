@@ -89,7 +89,7 @@ impl<'a> Execution<'a> {
         command.stdin(nothing).stdout(Stdio::null()).stderr(errors);
         let start = Instant::now();
         let ending = command.spawn().and_then(|child| wait(child, self.timeout, &|| self.interrupted().is_some()));
-        let wall = start.elapsed();
+        let wall_s = start.elapsed().as_secs_f64();
         let text = fs::read(&said).map_err(OutputError::io("read", &said))?;
         if text.is_empty() {
             fs::remove_file(&said).map_err(OutputError::io("remove", &said))?;
@@ -110,7 +110,8 @@ impl<'a> Execution<'a> {
             Err(error) => (RunStatus::Failed, format!("cannot start {}: {error}", command.get_program().to_string_lossy())),
         };
         let result = if summary.is_null() { String::new() } else { result_name(number) };
-        Ok(Ended { status, reason, summary, wall, result, machine: self.machine.clone() })
+        let timeout_s = self.timeout.as_secs_f64();
+        Ok(Ended { status, reason, wall_s, timeout_s, machine: self.machine.clone(), summary, result })
     }
 
     /// `mezha run`, under mpirun if there are several ranks. More ranks than cores share them: those that wait give way.
@@ -177,10 +178,7 @@ fn judge(ending: ExitStatus, summary: &Value, said: &str) -> (RunStatus, String)
         Some(2) => RunStatus::Refused,
         _ => RunStatus::Failed,
     };
-    let words = match (status, reason) {
-        (RunStatus::Converged | RunStatus::NotConverged | RunStatus::Unresolved, Some(reason)) => Some(reason.to_owned()),
-        _ => last_words(said),
-    };
+    let words = reason.filter(|_| status.is_solved()).map(str::to_owned).or_else(|| last_words(said));
     let how = || match (ending.code(), ending.signal()) {
         (Some(code @ (0 | 3)), _) => format!("exit code {code}, but summary.json does not say so"),
         (Some(code), _) => format!("exit code {code}, without a word"),

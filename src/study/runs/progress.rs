@@ -36,7 +36,7 @@ impl Progress {
 
     /// How it ended, on the same line.
     pub fn ended(&self, ended: &Ended) {
-        let words = format!("{} in {:.2} s", ended.status.words().replace('_', " "), ended.wall.as_secs_f64());
+        let words = format!("{} in {:.2} s", ended.status.words().replace('_', " "), ended.wall_s);
         say(&if ended.is_good() { format!("{words}\n") } else { format!("{words}: {}\n", ended.reason) });
     }
 
@@ -84,7 +84,7 @@ fn describe(keys: &[String], run: &PlannedRun) -> String {
 /// How many runs ended how, and the usual ending first.
 fn verdict(results: &[Ended]) -> String {
     let of = |status: RunStatus| results.iter().filter(|ended| ended.status == status).count();
-    let counts = RunStatus::ALL.map(|status| (status.words(), of(status)));
+    let counts = RunStatus::ALL.map(|(status, words)| (words, of(status)));
     let some = counts.iter().filter(|(words, number)| *number > 0 || *words == RunStatus::Converged.words());
     let words: Vec<String> = some.map(|(words, number)| format!("{number} {}", words.replace('_', " "))).collect();
     format!("{}: {}", count(results.len(), "run"), words.join(", "))

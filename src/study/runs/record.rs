@@ -40,15 +40,8 @@ pub struct Record {
     #[serde(flatten)]
     pub identity: Identity,
     /// How it ended.
-    pub status: RunStatus,
-    /// Why.
-    pub reason: String,
-    /// From its start to its end, in seconds.
-    pub wall_s: f64,
-    /// Seconds that it was given.
-    pub timeout_s: f64,
-    /// Where it was made.
-    pub machine: String,
+    #[serde(flatten)]
+    pub ended: Ended,
 }
 
 /// The program that makes the runs, this one, and what PETSc reads for each of them.
@@ -96,38 +89,16 @@ impl Program {
 }
 
 impl Record {
-    /// What is known of a run that has just ended.
-    pub fn new(study: &str, run: &PlannedRun, identity: &Identity, timeout: Duration, ended: &Ended) -> Self {
-        Self {
-            study: study.into(),
-            what: what(run),
-            identity: identity.clone(),
-            status: ended.status,
-            reason: ended.reason.clone(),
-            wall_s: ended.wall.as_secs_f64(),
-            timeout_s: timeout.as_secs_f64(),
-            machine: ended.machine.clone(),
-        }
-    }
-
     /// The run as it ended, with its summary; None if it has to be made again: it failed, it was given less time, or its result
     /// is gone.
-    pub fn ended(&self, summary: Value, timeout: Duration, result: &str) -> Option<Ended> {
-        let stands = match self.status {
-            RunStatus::Converged | RunStatus::NotConverged | RunStatus::Unresolved => !summary.is_null(),
-            RunStatus::Refused => true,
-            RunStatus::Timeout => self.timeout_s >= timeout.as_secs_f64(),
+    pub fn kept(&self, summary: Value, timeout: Duration, result: &str) -> Option<Ended> {
+        let stands = match self.ended.status {
+            RunStatus::Timeout => self.ended.timeout_s >= timeout.as_secs_f64(),
             RunStatus::Failed => false,
+            status => status == RunStatus::Refused || !summary.is_null(),
         };
         let result = if summary.is_null() { String::new() } else { result.into() };
-        stands.then(|| Ended {
-            status: self.status,
-            reason: self.reason.clone(),
-            summary,
-            wall: Duration::from_secs_f64(self.wall_s.max(0.0)),
-            result,
-            machine: self.machine.clone(),
-        })
+        stands.then(|| Ended { summary, result, ..self.ended.clone() })
     }
 }
 
@@ -225,18 +196,19 @@ mod tests {
     #[test]
     fn a_record_stands_if_making_it_again_would_say_the_same() {
         let identity = Identity { mezha: "1".into(), program: "2".into(), input: "3".into(), ranks: 2, repeat: 1 };
-        let record = |status| Record {
-            study: "hard".into(),
-            what: "bars".into(),
-            identity: identity.clone(),
+        let ended = |status| Ended {
             status,
             reason: "why".into(),
             wall_s: 1.5,
             timeout_s: 10.0,
             machine: "here".into(),
+            summary: Value::Null,
+            result: String::new(),
         };
+        let record =
+            |status| Record { study: "hard".into(), what: "bars".into(), identity: identity.clone(), ended: ended(status) };
         let (summary, short, long) = (json!({ "status": "converged" }), Duration::from_secs(10), Duration::from_secs(11));
-        let stands = |status, summary: &Value, timeout| record(status).ended(summary.clone(), timeout, "runs/001").is_some();
+        let stands = |status, summary: &Value, timeout| record(status).kept(summary.clone(), timeout, "runs/001").is_some();
         assert!(stands(RunStatus::Converged, &summary, long) && !stands(RunStatus::Converged, &Value::Null, long));
         assert!(stands(RunStatus::NotConverged, &summary, long) && !stands(RunStatus::NotConverged, &Value::Null, long));
         assert!(stands(RunStatus::Refused, &Value::Null, long));

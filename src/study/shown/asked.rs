@@ -15,8 +15,8 @@ pub fn asked_diagrams(table: &Table, names: &[String]) -> Vec<Diagram> {
     let places: Option<Vec<usize>> = names.iter().map(|name| table.place(name)).collect();
     let (Some([x, y, by @ ..]), Some(case)) = (places.as_deref(), table.place("case")) else { return Vec::new() };
     let of_case = |name: &String| {
-        let is_own = |row: &usize| table.is_converged(*row) && table.rows[*row][case] == name.as_str();
-        let rows: Vec<usize> = (0..table.rows.len()).filter(is_own).collect();
+        let converged = table.converged(0..table.rows.len());
+        let rows: Vec<usize> = converged.filter(|&row| table.rows[row][case] == name.as_str()).collect();
         let differs = |&at: &usize| rows.iter().any(|&row| table.rows[row][at] != table.rows[rows[0]][at]);
         let given = (0..table.columns.len()).filter(|&at| table.columns[at].kind == ColumnKind::Given && at != *x);
         let by = if by.is_empty() {
@@ -66,6 +66,7 @@ fn axis(name: &str, values: impl Iterator<Item = f64>) -> Axis {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::runs::ended::RunStatus::{Converged, NotConverged};
     use crate::study::table::rows::Column;
     use serde_json::{Value, json};
 
@@ -89,6 +90,7 @@ mod tests {
             columns: columns.map(|(name, kind)| Column::new(name, kind)).collect(),
             rows: rows.map(|row| row.as_array().expect("a list").clone()).to_vec(),
             groups: (0..6).map(|row| row..row + 1).collect(),
+            statuses: vec![Converged, Converged, Converged, Converged, NotConverged, Converged],
             good: vec![true, true, false, true, true, true],
             ..Table::default()
         }

@@ -58,7 +58,7 @@ impl Readable {
 
 /// How many runs there are and where they were made, in sentences.
 pub fn about(table: &Table) -> Vec<String> {
-    let (runs, converged) = (table.rows.len(), table.converged);
+    let (runs, converged) = (table.rows.len(), table.converged(0..table.rows.len()).count());
     let mut words = vec![format!("{runs} runs, {converged} converged; mezha {}.", env!("CARGO_PKG_VERSION"))];
     words.push(format!("Made on {}; BLAS: {}.", table.machines.join("; "), table.blas.join("; ")));
     if table.machines.len() > 1 {
@@ -156,6 +156,7 @@ fn escape(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::runs::ended::RunStatus;
     use serde_json::json;
 
     fn table() -> Table {
@@ -181,7 +182,7 @@ mod tests {
             ],
             groups: vec![0..1, 1..2],
             good: vec![true, false],
-            converged: 1,
+            statuses: vec![RunStatus::Converged, RunStatus::Failed],
             machines: vec!["Great CPU, 2 cores, 24 GiB".into()],
             blas: vec!["OpenBLAS".into()],
         }
@@ -249,6 +250,7 @@ mod tests {
             .rows
             .splice(1..1, [1.0, 2.5].map(|time| table.rows[0].iter().take(6).cloned().chain([time.into()]).collect()).to_vec());
         (table.groups, table.good) = (vec![0..3, 3..4], vec![true, true, true, false]);
+        table.statuses.splice(1..1, [RunStatus::Converged; 2]);
         table.columns[6].kind = ColumnKind::Main;
         crate::study::table::repeats::add_spreads(&mut table, &["wall_s"]);
         table

@@ -200,7 +200,8 @@ mod tests {
                     "time_s": { "total": unknowns * run.repeat as f64 },
                     "memory_mib": { "sum": 10.0 },
                 }),
-                wall: Duration::from_secs(1),
+                wall_s: 1.0,
+                timeout_s: 1.0,
                 result: "runs/001".into(),
                 machine: String::new(),
             }

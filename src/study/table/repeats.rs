@@ -7,7 +7,6 @@ use serde_json::Value;
 
 use super::rows::{Column, ColumnKind, Table};
 use crate::study::plan::Plan;
-use crate::study::runs::ended::RunStatus;
 
 /// What repeats say of one number.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -48,7 +47,7 @@ pub fn add_spreads(table: &mut Table, names: &[&str]) {
         let Some(at) = table.place(name) else { continue };
         let mut spreads = vec![[Value::Null, Value::Null, Value::Null]; table.rows.len()];
         for group in table.groups.clone() {
-            let values = group.clone().filter(|&row| table.is_converged(row)).filter_map(|row| table.rows[row][at].as_f64());
+            let values = table.converged(group.clone()).filter_map(|row| table.rows[row][at].as_f64());
             if let Some(spread) = Spread::of(values.collect()) {
                 spreads[group].fill([spread.median, spread.least, spread.most].map(Value::from));
             }
@@ -64,30 +63,31 @@ pub fn add_spreads(table: &mut Table, names: &[&str]) {
 /// One row for all repeats of a run: that of the first one that converged, with medians, and with the status and the reason of
 /// the worst one. The column `repeat` says how many there are, and if not all converged, how many did.
 pub fn condensed(table: &Table) -> Table {
+    let worst = |group: &Range<usize>| {
+        let severity = |row: &usize| (table.statuses[*row], usize::MAX - row);
+        group.clone().max_by_key(severity).unwrap_or(group.start)
+    };
     let row = |group: &Range<usize>| {
-        let first = group.clone().find(|&row| table.is_converged(row)).unwrap_or(group.start);
+        let first = table.converged(group.clone()).next().unwrap_or(group.start);
         let mut cells = table.rows[first].clone();
         for (at, column) in table.columns.iter().enumerate() {
-            if let Some(median) = table.place(&format!("{}.median", column.name)) {
-                cells[at] = table.rows[first][median].clone();
+            let median = table.place(&format!("{}.median", column.name));
+            match column.name.as_str() {
+                "status" | "reason" => cells[at] = table.rows[worst(group)][at].clone(),
+                "repeat" => {
+                    cells[at] = match (table.converged(group.clone()).count(), group.len()) {
+                        (converged, all) if all == converged => all.into(),
+                        (converged, all) => format!("{converged} of {all}").into(),
+                    }
+                }
+                _ => median.into_iter().for_each(|median| cells[at] = table.rows[first][median].clone()),
             }
         }
-        let severity = |row: &usize| RunStatus::ALL.iter().position(|status| table.status(*row) == status.words());
-        let worst = group.clone().max_by_key(|row| (severity(row), usize::MAX - row)).unwrap_or(group.start);
-        for name in ["status", "reason"] {
-            let at = table.place(name).expect("a column of every table");
-            cells[at] = table.rows[worst][at].clone();
-        }
-        let converged = group.clone().filter(|&row| table.is_converged(row)).count();
-        let repeat = table.place("repeat").expect("a column of every table");
-        cells[repeat] = match group.len() {
-            all if all == converged => all.into(),
-            all => format!("{converged} of {all}").into(),
-        };
         cells
     };
     Table {
         rows: table.groups.iter().map(row).collect(),
+        statuses: table.groups.iter().map(|group| table.statuses[worst(group)]).collect(),
         good: table.groups.iter().map(|group| group.clone().all(|row| table.good[row])).collect(),
         groups: (0..table.groups.len()).map(|row| row..row + 1).collect(),
         ..table.clone()
@@ -97,6 +97,7 @@ pub fn condensed(table: &Table) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::runs::ended::RunStatus::{Converged, Failed};
     use serde_json::json;
 
     #[test]
@@ -127,6 +128,7 @@ mod tests {
                 row(json!(["rings", 1, "converged", "fine", 7.0, 0.2])),
             ],
             groups: vec![0..3, 3..4],
+            statuses: vec![Converged, Failed, Converged, Converged],
             good: vec![true, false, true, true],
             ..Table::default()
         }

@@ -28,10 +28,10 @@ pub struct Table {
     pub rows: Vec<Vec<Value>>,
     /// Rows of repeats of one run.
     pub groups: Vec<Range<usize>>,
+    /// For each row, how its run ended.
+    pub statuses: Vec<RunStatus>,
     /// For each row, whether its reason goes without saying.
     pub good: Vec<bool>,
-    /// Number of runs that converged.
-    pub converged: usize,
     /// Where the runs were made, each machine once.
     pub machines: Vec<String>,
     /// The BLAS that they used, each once.
@@ -68,19 +68,22 @@ impl Column {
 impl Table {
     /// Puts the results of all runs side by side, in the order of the plan.
     pub fn new(plan: &Plan, results: &[Ended]) -> Self {
-        let (columns, cells): (Vec<Column>, Vec<CellOf>) = columns(plan, results).into_iter().unzip();
-        let row = |(run, ended): (&PlannedRun, &Ended)| cells.iter().map(|cell| cell(run, ended)).collect();
+        let places = places(plan, results);
+        let is_repeated = plan.runs.iter().any(|run| run.repeat > 1);
+        let all = plan.runs.iter().zip(results);
+        let rows: Vec<Vec<NamedCell>> = all.map(|(run, ended)| cells(plan, &places, is_repeated, run, ended)).collect();
+        let column = |(name, kind, _): &NamedCell| Column::new(name, *kind);
         Self {
             study: plan.name.clone(),
             errors: plan.errors.iter().map(|path| path.text.clone()).collect(),
             time: plan.time.text.clone(),
-            rows: plan.runs.iter().zip(results).map(row).collect(),
+            columns: rows.first().into_iter().flatten().map(column).collect(),
+            rows: rows.into_iter().map(|row| row.into_iter().map(|(.., value)| value).collect()).collect(),
             groups: plan.groups(),
+            statuses: results.iter().map(|ended| ended.status).collect(),
             good: results.iter().map(Ended::is_good).collect(),
-            converged: results.iter().filter(|ended| ended.status == RunStatus::Converged).count(),
             machines: once(results.iter().map(|ended| ended.machine.as_str())),
             blas: once(results.iter().filter_map(|ended| ended.summary["solver"]["blas"].as_str())),
-            columns,
         }
     }
 
@@ -94,59 +97,46 @@ impl Table {
         self.columns.iter().position(|column| column.name == name)
     }
 
-    /// How the run of a row ended.
-    pub fn status(&self, row: usize) -> &str {
-        self.place("status").and_then(|at| self.rows[row][at].as_str()).unwrap_or_default()
-    }
-
-    /// Whether the run of a row converged.
-    pub fn is_converged(&self, row: usize) -> bool {
-        self.status(row) == RunStatus::Converged.words()
+    /// Those of some rows whose runs converged.
+    pub fn converged(&self, rows: Range<usize>) -> impl Iterator<Item = usize> {
+        rows.filter(|&row| self.statuses[row] == RunStatus::Converged)
     }
 }
 
-/// What stands in a column for a run.
-type CellOf<'a> = Box<dyn Fn(&PlannedRun, &Ended) -> Value + 'a>;
+/// A value of a row, with the name of its column and what that is for a reader.
+type NamedCell<'a> = (&'a str, ColumnKind, Value);
 
-/// A column by its name and kind, and what stands in it for a run, as it is planned or as it ended.
-type NamedCell<T> = (&'static str, ColumnKind, fn(&T) -> Value);
-
-/// All columns, each with its cells: what the study says of a run, what became of it, places in its summary, and its folder.
-fn columns<'a>(plan: &'a Plan, results: &[Ended]) -> Vec<(Column, CellOf<'a>)> {
+/// The row of a run: what the study says of it, what became of it, places in its summary, and its folder.
+fn cells<'a>(
+    plan: &'a Plan,
+    places: &'a [(SummaryPath, ColumnKind)],
+    is_repeated: bool,
+    run: &PlannedRun,
+    ended: &Ended,
+) -> Vec<NamedCell<'a>> {
     let (given, main, detail) = (ColumnKind::Given, ColumnKind::Main, ColumnKind::Detail);
-    let repeat = if plan.runs.iter().any(|run| run.repeat > 1) { given } else { detail };
-    let of_plan: [NamedCell<PlannedRun>; 4] = [
-        ("case", given, |run| text(&run.case)),
-        ("curve", given, |run| run.curve.as_deref().map_or(Value::Null, text)),
-        ("ranks", given, |run| run.ranks.into()),
-        ("repeat", repeat, |run| run.repeat.into()),
+    let Ended { summary, .. } = ended;
+    let mut cells = vec![
+        ("case", given, text(&run.case)),
+        ("curve", given, run.curve.as_deref().map_or(Value::Null, text)),
+        ("ranks", given, run.ranks.into()),
+        ("repeat", if is_repeated { given } else { detail }, run.repeat.into()),
     ];
-    let of_result: [NamedCell<Ended>; 7] = [
-        ("status", main, |ended| ended.status.words().into()),
-        ("reason", main, |ended| text(&ended.reason)),
-        ("unknowns", main, |ended| ended.summary["unknowns"]["displacement"].clone()),
-        ("multipliers", main, |ended| ended.summary["unknowns"]["multiplier"].clone()),
-        ("krylov_iterations", main, |ended| krylov_iterations(&ended.summary).into()),
-        ("outer_iterations", main, |ended| ended.summary["outer"].as_array().map(Vec::len).into()),
-        ("wall_s", detail, |ended| ended.wall.as_secs_f64().into()),
-    ];
-    let of_plan =
-        of_plan.map(|(name, kind, cell)| (Column::new(name, kind), Box::new(move |run: &_, _: &_| cell(run)) as CellOf));
-    let keys = plan.keys.iter().enumerate().map(|(at, key)| {
-        let cell = move |run: &PlannedRun, _: &_| serde_json::to_value(&run.values[at]).unwrap_or_default();
-        (Column::new(key, given), Box::new(cell) as CellOf)
-    });
-    let of_result =
-        of_result.map(|(name, kind, cell)| (Column::new(name, kind), Box::new(move |_: &_, ended: &_| cell(ended)) as CellOf));
-    let error = |_: &_, ended: &Ended| plan.errors.first().map_or(Value::Null, |path| path.of(&ended.summary));
-    let places = places(plan, results).into_iter().map(|(place, kind)| {
-        let column = Column::new(&place.text, kind);
-        (column, Box::new(move |_: &_, ended: &Ended| place.of(&ended.summary)) as CellOf)
-    });
-    let result = |_: &_, ended: &Ended| text(&ended.result);
-    let error = (Column::new("error", main), Box::new(error) as CellOf);
-    let result = (Column::new("result", detail), Box::new(result) as CellOf);
-    of_plan.into_iter().chain(keys).chain(of_result).chain([error]).chain(places).chain([result]).collect()
+    let moved = plan.keys.iter().zip(&run.values);
+    cells.extend(moved.map(|(key, value)| (key.as_str(), given, serde_json::to_value(value).unwrap_or_default())));
+    cells.extend([
+        ("status", main, ended.status.words().into()),
+        ("reason", main, text(&ended.reason)),
+        ("unknowns", main, summary["unknowns"]["displacement"].clone()),
+        ("multipliers", main, summary["unknowns"]["multiplier"].clone()),
+        ("krylov_iterations", main, krylov_iterations(summary).into()),
+        ("outer_iterations", main, summary["outer"].as_array().map(Vec::len).into()),
+        ("wall_s", detail, ended.wall_s.into()),
+        ("error", main, plan.errors.first().map_or(Value::Null, |path| path.of(summary))),
+    ]);
+    cells.extend(places.iter().map(|(place, kind)| (place.text.as_str(), *kind, place.of(summary))));
+    cells.push(("result", detail, text(&ended.result)));
+    cells
 }
 
 /// Of all linear solves.
@@ -240,9 +230,10 @@ mod tests {
             status,
             reason: "why".into(),
             summary,
-            wall: Duration::from_millis(500),
-            result: String::new(),
+            wall_s: 0.5,
+            timeout_s: 1.0,
             machine: "here".into(),
+            result: String::new(),
         }
     }
 
@@ -302,7 +293,7 @@ mod tests {
         for (column, value) in expected {
             assert_eq!(cell(&table, 0, column), value, "{column}");
         }
-        assert_eq!(table.converged, 1);
+        assert_eq!(table.converged(0..2).collect::<Vec<_>>(), [0]);
     }
 
     #[test]

@@ -94,8 +94,8 @@ impl Folder {
         for (place, wanted) in places.iter_mut().zip(wanted) {
             let same =
                 self.records.iter().filter(|(number, record)| !taken.contains(*number) && record.identity == wanted.identity);
-            let found =
-                same.map(|(&number, record)| (number, self.ended(number, record, timeout))).find(|(_, ended)| ended.is_some());
+            let kept = |record: &Record, number| record.kept(read_summary(&self.result(number)), timeout, &result_name(number));
+            let found = same.map(|(&number, record)| (number, kept(record, number))).find(|(_, ended)| ended.is_some());
             if let Some((number, kept)) = found {
                 taken.insert(number);
                 *place = Some(ResultPlace { number, kept, again: false });
@@ -113,11 +113,6 @@ impl Folder {
             *place = Some(ResultPlace { number, kept: None, again: older.is_some() });
         }
         places.into_iter().flatten().collect()
-    }
-
-    /// A recorded run with its summary; None if it has to be made again.
-    fn ended(&self, number: usize, record: &Record, timeout: Duration) -> Option<Ended> {
-        record.ended(read_summary(&self.result(number)), timeout, &result_name(number))
     }
 
     /// The folder of a result.

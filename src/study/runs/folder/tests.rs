@@ -16,11 +16,15 @@ fn finish(folder: &Folder, number: usize, wanted: &Wanted, result: bool) {
         study: "bars".into(),
         what: wanted.what.clone(),
         identity: wanted.identity.clone(),
-        status: RunStatus::Converged,
-        reason: "residual".into(),
-        wall_s: number as f64,
-        timeout_s: 60.0,
-        machine: "here".into(),
+        ended: Ended {
+            status: RunStatus::Converged,
+            reason: "residual".into(),
+            wall_s: number as f64,
+            timeout_s: 60.0,
+            machine: "here".into(),
+            summary: Value::Null,
+            result: String::new(),
+        },
     };
     folder.keep(number, &record).unwrap();
     if result {
@@ -78,7 +82,7 @@ fn finished_runs_are_found_wherever_the_study_has_moved_them() {
     let places = made.places(&[d.clone(), c.clone(), b.clone(), a.clone()], HOUR);
     assert_eq!(said(&places), "4n 3a 2k 1k", "a result that is gone is made again, a new run takes a new number");
     let kept = places[2].kept.as_ref().unwrap();
-    assert_eq!((kept.wall.as_secs(), kept.result.as_str(), &kept.summary["status"]), (2, "runs/002", &"converged".into()));
+    assert_eq!((kept.wall_s, kept.result.as_str(), &kept.summary["status"]), (2.0, "runs/002", &"converged".into()));
     assert_eq!(said(&made.places(&[b.clone(), b.clone(), b], HOUR)), "2k 4n 5n", "a result is one row");
 }
 
