@@ -8,7 +8,7 @@ pub(super) mod summary_path;
 
 use std::cell::RefCell;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 use toml::Value;
@@ -128,23 +128,23 @@ fn read_along(value: &Value) -> Result<String, String> {
 /// Finds the case files, and a name for each that no other has.
 fn find_cases(cases: &[String], study: &Path, root: &Section) -> Vec<PlannedCase> {
     let folder = study.parent().unwrap_or(Path::new(""));
-    let files: Vec<PathBuf> = cases.iter().map(|case| folder.join(case)).collect();
-    let names: Vec<String> = files.iter().map(|file| name_of(file, "case.toml")).collect();
-    for (case, file) in cases.iter().zip(&files).filter(|(_, file)| !file.is_file()) {
-        let words = format!("there is no file {} for \"{case}\"; case files are relative to the study file", file.display());
-        root.problem(&["cases"], words);
-    }
-    let label = |index: usize| {
-        let alone = names.iter().filter(|name| **name == names[index]).count() == 1;
-        if alone { names[index].clone() } else { cases[index].clone() }
+    let name = |case: &String| name_of(&folder.join(case), "case.toml");
+    let planned = |written: &String| {
+        let file = folder.join(written);
+        if !file.is_file() {
+            let words =
+                format!("there is no file {} for \"{written}\"; case files are relative to the study file", file.display());
+            root.problem(&["cases"], words);
+        }
+        let is_alone = cases.iter().filter(|case| name(case) == name(written)).count() == 1;
+        PlannedCase {
+            label: if is_alone { name(written) } else { written.clone() },
+            title: Case::read(&file, &[]).map(|case| case.title).unwrap_or_default(),
+            written: written.clone(),
+            file,
+        }
     };
-    let planned = |(index, file): (usize, &PathBuf)| PlannedCase {
-        written: cases[index].clone(),
-        file: file.clone(),
-        label: label(index),
-        title: Case::read(file, &[]).map(|case| case.title).unwrap_or_default(),
-    };
-    files.iter().enumerate().map(planned).collect()
+    cases.iter().map(planned).collect()
 }
 
 /// Curves of one case are told apart by their names, and drawn for cases of the study.

@@ -3,7 +3,7 @@
 use toml::Value;
 
 use super::planned::{PlannedCase, PlannedRun};
-use super::settings::{GridAxis, Setting, StudyCurve, problem_at};
+use super::settings::{Setting, StudyCurve};
 use crate::case::Case;
 use crate::case::error::dotted;
 use crate::case::section::Section;
@@ -14,9 +14,9 @@ const MOST_RUNS: usize = 10_000;
 /// Keys of the cases that the study sets.
 pub struct Moves {
     /// `[set]`: in every run, but where a curve sets the same key.
-    pub common: Vec<Setting<Value>>,
+    pub common: Vec<Setting>,
     /// `[grid]`: for every curve, but those that have an axis of their own for the same key.
-    pub grid: Vec<GridAxis>,
+    pub grid: Vec<Setting>,
     /// `[[curve]]`
     pub curves: Vec<StudyCurve>,
 }
@@ -37,59 +37,53 @@ impl Moves {
     /// A key moves in one place: in a grid, or with a curve. Only `[set]` and `[grid]` give way to a curve, which takes their
     /// place.
     pub fn check_overlaps(&self, root: &Section) {
-        let complain = |written: &[String], other: &[String]| {
-            problem_at(written, format!("is also set by {}; a key moves in one place", dotted(other)), root);
-        };
-        let common = self.common.iter().map(places);
-        one_by_one(&self.grid.iter().map(places).chain(common).collect::<Vec<_>>(), complain);
+        let mut found = meeting(&self.grid.iter().chain(&self.common).collect::<Vec<_>>());
         for curve in &self.curves {
             let left = self.grid.iter().filter(|axis| curve.grid.iter().all(|own| own.path != axis.path));
-            let own = curve.set.iter().map(places).chain(curve.grid.iter().map(places));
-            one_by_one(&left.map(places).chain(own).collect::<Vec<_>>(), |written, other| {
-                // What is wrong in the grid alone has been told.
-                if written[0] == "curve" {
-                    complain(written, other);
-                }
-            });
+            let own = meeting(&left.chain(&curve.set).chain(&curve.grid).collect::<Vec<_>>());
+            // What is wrong in the grid alone has been told.
+            found.extend(own.into_iter().filter(|[setting, _]| setting.written[0] == "curve"));
+        }
+        for [setting, other] in found {
+            setting.problem(format!("is also set by {}; a key moves in one place", dotted(&other.written)), root);
         }
     }
 
     /// What a curve sets, and before it what `[set]` does and the curve does not.
-    fn set<'a>(&'a self, curve: Option<&'a StudyCurve>) -> impl Iterator<Item = &'a Setting<Value>> + Clone {
+    fn set<'a>(&'a self, curve: Option<&'a StudyCurve>) -> Vec<&'a Setting> {
         let (own, grid) = curve.map_or((&[][..], &[][..]), |curve| (&curve.set[..], &curve.grid[..]));
-        let left = move |setting: &&Setting<Value>| {
-            own.iter().map(|other| &other.path).chain(grid.iter().map(|axis| &axis.path)).all(|path| !meet(path, &setting.path))
-        };
-        self.common.iter().filter(left).chain(own)
+        let left = |setting: &&Setting| own.iter().chain(grid).all(|other| !other.meets(setting));
+        self.common.iter().filter(left).chain(own).collect()
     }
 
     /// Axes of a curve: those of the grid, with its own in their place, and then the rest of its own.
-    fn axes<'a>(&'a self, curve: Option<&'a StudyCurve>) -> Vec<&'a GridAxis> {
+    fn axes<'a>(&'a self, curve: Option<&'a StudyCurve>) -> Vec<&'a Setting> {
         let own = curve.map_or(&[][..], |curve| &curve.grid);
-        let replaced = |axis: &'a GridAxis| own.iter().find(|other| other.path == axis.path).unwrap_or(axis);
+        let replaced = |axis: &'a Setting| own.iter().find(|other| other.path == axis.path).unwrap_or(axis);
         let more = own.iter().filter(|other| self.grid.iter().all(|axis| axis.path != other.path));
         self.grid.iter().map(replaced).chain(more).collect()
+    }
+
+    /// Each case with each of its curves.
+    fn lines<'a>(&'a self, cases: &'a [PlannedCase]) -> impl Iterator<Item = (&'a PlannedCase, Option<&'a StudyCurve>)> + Clone {
+        cases.iter().flat_map(|case| case.curves(&self.curves).into_iter().map(move |curve| (case, curve)))
     }
 
     /// A key that no case can have is a slip of the pen: it is told before anything runs. What else is wrong with a case, a
     /// value that it refuses, say, is the row of its run.
     pub fn check_keys(&self, cases: &[PlannedCase], root: &Section) {
         let mut told: Vec<&[String]> = Vec::new();
-        for case in cases {
-            for curve in case.curves(&self.curves) {
-                let (set, axes) = (self.set(curve), self.axes(curve));
-                let first = axes.iter().map(|axis| overriding(&axis.path, &axis.value[0]));
-                let overrides: Vec<String> =
-                    set.clone().map(|setting| overriding(&setting.path, &setting.value)).chain(first).collect();
-                let Err(error) = Case::read(&case.file, &overrides) else { continue };
-                for (path, written) in set.map(places).chain(axes.into_iter().map(places)) {
-                    let key = dotted(path);
-                    let meant = |unknown: &str| key == unknown || key.starts_with(&format!("{unknown}."));
-                    let problem = error.problems.iter().find(|problem| problem.is_unknown() && meant(&problem.key));
-                    if let Some(problem) = problem.filter(|_| !told.contains(&written)) {
-                        problem_at(written, format!("{} (asked of case {})", problem.words, case.label), root);
-                        told.push(written);
-                    }
+        for (case, curve) in self.lines(cases) {
+            let all = [self.set(curve), self.axes(curve)].concat();
+            let overrides: Vec<String> = all.iter().map(|setting| setting.overriding(&setting.values[0])).collect();
+            let Err(error) = Case::read(&case.file, &overrides) else { continue };
+            for setting in all {
+                let key = dotted(&setting.path);
+                let meant = |unknown: &str| key == unknown || key.starts_with(&format!("{unknown}."));
+                let problem = error.problems.iter().find(|problem| problem.is_unknown() && meant(&problem.key));
+                if let Some(problem) = problem.filter(|_| !told.contains(&&setting.written[..])) {
+                    setting.problem(format!("{} (asked of case {})", problem.words, case.label), root);
+                    told.push(&setting.written);
                 }
             }
         }
@@ -98,32 +92,26 @@ impl Moves {
     /// Every run: cases, then their curves, then combinations of the grid with the last key running fastest, then ranks and
     /// repeats.
     pub fn expand(&self, cases: &[PlannedCase], ranks: &[usize], repeat: usize, root: &Section) -> Option<Vec<PlannedRun>> {
-        let lines: Vec<_> =
-            cases.iter().flat_map(|case| case.curves(&self.curves).into_iter().map(move |curve| (case, curve))).collect();
-        let of_line = |axes: Vec<&GridAxis>| axes.iter().map(|axis| axis.value.len()).fold(1usize, usize::saturating_mul);
-        let combined = lines.iter().map(|(_, curve)| of_line(self.axes(*curve))).fold(0, usize::saturating_add);
+        let of_line = |axes: Vec<&Setting>| axes.iter().map(|axis| axis.values.len()).fold(1usize, usize::saturating_mul);
+        let combined = self.lines(cases).map(|(_, curve)| of_line(self.axes(curve))).fold(0, usize::saturating_add);
         let count = [ranks.len(), repeat].into_iter().fold(combined, usize::saturating_mul);
         if count > MOST_RUNS {
             root.problem(&[], format!("the study makes {count} runs, more than {MOST_RUNS}; make several studies of it"));
             return None;
         }
-        let mut runs = Vec::with_capacity(count);
-        for (case, curve) in lines {
-            for planned in self.line(case, curve) {
-                for (&ranks, repeat) in ranks.iter().flat_map(|ranks| (1..=repeat).map(move |repeat| (ranks, repeat))) {
-                    runs.push(PlannedRun { ranks, repeat, ..planned.clone() });
-                }
-            }
-        }
-        Some(runs)
+        let alike = |planned: PlannedRun| {
+            let each = ranks.iter().flat_map(|&ranks| (1..=repeat).map(move |repeat| (ranks, repeat)));
+            each.map(move |(ranks, repeat)| PlannedRun { ranks, repeat, ..planned.clone() })
+        };
+        Some(self.lines(cases).flat_map(|(case, curve)| self.line(case, curve)).flat_map(alike).collect())
     }
 
     /// Every combination of one case and one curve.
     fn line(&self, case: &PlannedCase, curve: Option<&StudyCurve>) -> Vec<PlannedRun> {
         let (keys, axes) = (self.keys(), self.axes(curve));
-        let set: Vec<String> = self.set(curve).map(|setting| overriding(&setting.path, &setting.value)).collect();
+        let set: Vec<String> = self.set(curve).iter().map(|setting| setting.overriding(&setting.values[0])).collect();
         let planned = |values: Vec<&Value>| {
-            let moved = axes.iter().zip(&values).map(|(axis, value)| overriding(&axis.path, value));
+            let moved = axes.iter().zip(&values).map(|(axis, value)| axis.overriding(value));
             let of_key = |key: &String| axes.iter().position(|axis| dotted(&axis.path) == *key).map(|at| values[at].clone());
             PlannedRun {
                 file: case.file.clone(),
@@ -140,32 +128,19 @@ impl Moves {
     }
 }
 
-/// The key of a setting, and where it is written.
-fn places<T>(setting: &Setting<T>) -> (&[String], &[String]) {
-    (&setting.path, &setting.written)
-}
-
-/// Tells each key that meets an earlier one, by the places where both are written.
-fn one_by_one<'a>(settings: &[(&'a [String], &'a [String])], complain: impl Fn(&'a [String], &'a [String])) {
-    for (index, (path, written)) in settings.iter().enumerate() {
-        settings[..index].iter().filter(|(other, _)| meet(other, path)).for_each(|(_, other)| complain(written, other));
-    }
-}
-
-/// Whether two keys are the same, or one stands in the table of the other.
-fn meet(a: &[String], b: &[String]) -> bool {
-    a.starts_with(b) || b.starts_with(a)
-}
-
-/// `KEY=VALUE`
-fn overriding(path: &[String], value: &Value) -> String {
-    format!("{}={value}", dotted(path))
+/// Each key that meets an earlier one, with that.
+fn meeting<'a>(settings: &[&'a Setting]) -> Vec<[&'a Setting; 2]> {
+    let earlier = |(at, setting): (usize, &&'a Setting)| {
+        let setting = *setting;
+        settings[..at].iter().filter(|other| other.meets(setting)).map(move |other| [setting, *other]).collect::<Vec<_>>()
+    };
+    settings.iter().enumerate().flat_map(earlier).collect()
 }
 
 /// One value of each axis, in every way.
-fn combinations<'a>(axes: &[&'a GridAxis]) -> Vec<Vec<&'a Value>> {
+fn combinations<'a>(axes: &[&'a Setting]) -> Vec<Vec<&'a Value>> {
     axes.iter().fold(vec![Vec::new()], |so_far, axis| {
         let extended = |values: &Vec<&'a Value>, value: &'a Value| values.iter().copied().chain([value]).collect();
-        so_far.iter().flat_map(|values| axis.value.iter().map(move |value| extended(values, value))).collect()
+        so_far.iter().flat_map(|values| axis.values.iter().map(move |value| extended(values, value))).collect()
     })
 }

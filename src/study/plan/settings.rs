@@ -2,33 +2,48 @@
 
 use toml::{Table, Value};
 
+use crate::case::error::dotted;
 use crate::case::overrides::read_key;
 use crate::case::schema::study::{CURVE_CASES, CURVE_NAME, GRID, SET};
 use crate::case::section::Section;
 use crate::case::values;
 
-/// A key of the case and what stands there: a value, or a list of values on an axis of a grid.
+/// A key of the case and what stands there: a value, or the values on an axis of a grid.
 #[derive(Clone, Debug)]
-pub struct Setting<T> {
+pub struct Setting {
     /// Where it is written in the study file, from its root.
     pub written: Vec<String>,
     /// Names of the key.
     pub path: Vec<String>,
     /// What stands there.
-    pub value: T,
+    pub values: Vec<Value>,
 }
 
-/// An axis of a grid.
-pub type GridAxis = Setting<Vec<Value>>;
+impl Setting {
+    /// Whether the keys are the same, or one stands in the table of the other.
+    pub fn meets(&self, other: &Self) -> bool {
+        self.path.starts_with(&other.path) || other.path.starts_with(&self.path)
+    }
+
+    /// `KEY=VALUE`
+    pub fn overriding(&self, value: &Value) -> String {
+        format!("{}={value}", dotted(&self.path))
+    }
+
+    /// Tells what is wrong where it is written.
+    pub fn problem(&self, words: String, section: &Section) {
+        section.problem(&self.written.iter().map(String::as_str).collect::<Vec<_>>(), words);
+    }
+}
 
 /// `[[curve]]`
 pub struct StudyCurve {
     /// Name of the curve.
     pub name: String,
     /// Keys that move together.
-    pub set: Vec<Setting<Value>>,
+    pub set: Vec<Setting>,
     /// Axes of its own, in place of those of `[grid]` for the same keys, and beside the others.
-    pub grid: Vec<GridAxis>,
+    pub grid: Vec<Setting>,
     /// The cases that it is drawn for, as they stand in `cases`; None: for all.
     pub cases: Option<Vec<String>>,
 }
@@ -44,34 +59,28 @@ impl StudyCurve {
 }
 
 /// `[set]`
-pub fn read_set(section: &Section) -> Vec<Setting<Value>> {
+pub fn read_set(section: &Section) -> Vec<Setting> {
     settings(&section.optional(SET).unwrap_or_default(), &["set"], section)
 }
 
 /// `[grid]`
-pub fn read_grid(section: &Section) -> Vec<GridAxis> {
-    let table = section.optional(GRID).unwrap_or_default();
-    let mut axes = Vec::new();
-    for setting in settings(&table, &["grid"], section) {
-        match values::list("a list of values, as in [2, 3]", &setting.value) {
-            Ok(value) => axes.push(Setting { written: setting.written, path: setting.path, value }),
-            Err(words) => problem_at(&setting.written, words, section),
+pub fn read_grid(section: &Section) -> Vec<Setting> {
+    let axis = |setting: Setting| match values::list("a list of values, as in [2, 3]", &setting.values[0]) {
+        Ok(values) => Some(Setting { values, ..setting }),
+        Err(words) => {
+            setting.problem(words, section);
+            None
         }
-    }
-    axes
-}
-
-/// Tells what is wrong where it is written.
-pub fn problem_at(written: &[String], words: String, section: &Section) {
-    section.problem(&written.iter().map(String::as_str).collect::<Vec<_>>(), words);
+    };
+    settings(&section.optional(GRID).unwrap_or_default(), &["grid"], section).into_iter().filter_map(axis).collect()
 }
 
 /// `[[curve]]`
 pub fn read_curve(section: &Section) -> Option<StudyCurve> {
     let name = section.required(CURVE_NAME);
     let (mut set, mut grid) = (read_set(section), read_grid(section));
-    for written in set.iter_mut().map(|s| &mut s.written).chain(grid.iter_mut().map(|axis| &mut axis.written)) {
-        written.splice(0..0, ["curve".into(), section.name().into()]);
+    for setting in set.iter_mut().chain(&mut grid) {
+        setting.written.splice(0..0, ["curve".into(), section.name().into()]);
     }
     let cases = section.optional(CURVE_CASES);
     Some(StudyCurve { name: name?, set, grid, cases })
@@ -79,7 +88,7 @@ pub fn read_curve(section: &Section) -> Option<StudyCurve> {
 
 /// All keys of a table, which stands at `below` in the section. A table inside, which comes from dots that are not in quotes,
 /// is one more name of the key.
-fn settings(table: &Table, below: &[&str], section: &Section) -> Vec<Setting<Value>> {
+fn settings(table: &Table, below: &[&str], section: &Section) -> Vec<Setting> {
     let mut found = Vec::new();
     for (name, value) in table {
         let here: Vec<&str> = below.iter().copied().chain([name.as_str()]).collect();
@@ -91,13 +100,10 @@ fn settings(table: &Table, below: &[&str], section: &Section) -> Vec<Setting<Val
             Value::Table(table) => settings(table, &here, section),
             value => {
                 let written = here.iter().map(|name| (*name).to_owned()).collect();
-                vec![Setting { written, path: Vec::new(), value: value.clone() }]
+                vec![Setting { written, path: Vec::new(), values: vec![value.clone()] }]
             }
         };
-        for mut setting in inner {
-            setting.path.splice(0..0, names.iter().cloned());
-            found.push(setting);
-        }
+        found.extend(inner.into_iter().map(|setting| Setting { path: [&names[..], &setting.path].concat(), ..setting }));
     }
     found
 }
