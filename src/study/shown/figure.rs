@@ -5,7 +5,6 @@ use crate::study::plan::Plan;
 use crate::study::plan::summary_path::SummaryPath;
 use crate::study::table::fit::PowerLaw;
 use crate::study::table::lines::{Line, LinePoint};
-use crate::study::table::repeats::Spread;
 use crate::study::table::rows::once;
 
 /// What a diagram shows of the size of a run.
@@ -81,7 +80,7 @@ impl CaseLines<'_> {
 
     /// Time against an error.
     fn time_against(&self, title: &str, error: &str, [x, y]: [&str; 2]) -> Diagram {
-        let race = self.diagram(title, [x, y], &|point| Some(timed(*point.errors.get(error)?, point.time?, point)));
+        let race = self.diagram(title, [x, y], &|point| timed(*point.errors.get(error)?, point));
         Diagram { behind: front(&self.lines, error), ..race }
     }
 
@@ -89,7 +88,7 @@ impl CaseLines<'_> {
     fn race(&self, plan: &Plan) -> Diagram {
         let time = format!("{} [s]", plan.time.text);
         let Some(SummaryPath { text: error, .. }) = plan.errors.first() else {
-            return self.diagram(&self.title, [UNKNOWNS, &time], &|point| Some(timed(point.unknowns, point.time?, point)));
+            return self.diagram(&self.title, [UNKNOWNS, &time], &|point| timed(point.unknowns, point));
         };
         let mut race = self.time_against(&self.title, error, [&format!("{error}, better to the right"), &time]);
         race.x.falling = true;
@@ -105,34 +104,35 @@ impl CaseLines<'_> {
     /// For each error, time against error and error against unknowns; then time and iterations against unknowns, and without
     /// errors memory too.
     fn diagrams(&self, plan: &Plan) -> Vec<Diagram> {
-        let (unknowns, time) = (UNKNOWNS, &format!("{} [s]", plan.time.text));
+        let time = &format!("{} [s]", plan.time.text);
         let mut all = Vec::new();
         for SummaryPath { text: error, .. } in &plan.errors {
             all.push(self.time_against("time against error (grey: the Pareto front)", error, [error, time]));
-            all.push(self.diagram("error against unknowns", [unknowns, error], &|point| {
-                Some(Mark::at(point.unknowns, *point.errors.get(error)?, !point.trusted))
-            }));
+            let place = |point: &LinePoint| sized(point, point.errors.get(error).copied());
+            all.push(self.diagram("error against unknowns", [UNKNOWNS, error], &place));
         }
-        all.push(
-            self.diagram("time against unknowns", [unknowns, time], &|point| Some(timed(point.unknowns, point.time?, point))),
-        );
-        let mut iterations =
-            self.diagram("Krylov iterations against unknowns", [unknowns, "iterations of all solves"], &|point| {
-                Some(Mark::at(point.unknowns, point.iterations?, !point.trusted))
-            });
-        iterations.y.logarithmic = false;
-        all.push(iterations);
+        all.push(self.diagram("time against unknowns", [UNKNOWNS, time], &|point| timed(point.unknowns, point)));
+        let iterations = self.diagram("Krylov iterations against unknowns", [UNKNOWNS, "iterations of all solves"], &|point| {
+            sized(point, point.iterations)
+        });
+        all.push(Diagram { y: Axis { logarithmic: false, ..iterations.y }, ..iterations });
         if plan.errors.is_empty() {
-            all.push(self.diagram("memory against unknowns", [unknowns, "memory of all ranks [MiB]"], &|point| {
-                Some(Mark::at(point.unknowns, point.memory?, !point.trusted))
-            }));
+            let memory = [UNKNOWNS, "memory of all ranks [MiB]"];
+            all.push(self.diagram("memory against unknowns", memory, &|point| sized(point, point.memory)));
         }
         all
     }
 }
 
-fn timed(x: f64, time: Spread, point: &LinePoint) -> Mark {
-    Mark { reach: [time.least, time.most], ..Mark::at(x, time.median, !point.trusted) }
+/// What is known of a point above its size.
+fn sized(point: &LinePoint, y: Option<f64>) -> Option<Mark> {
+    Some(Mark::at(point.unknowns, y?, !point.trusted))
+}
+
+/// The time of a point, with its spread.
+fn timed(x: f64, point: &LinePoint) -> Option<Mark> {
+    let time = point.time?;
+    Some(Mark { reach: [time.least, time.most], ..Mark::at(x, time.median, !point.trusted) })
 }
 
 /// Errors and times of the points that no other beats, from the least accurate on, in steps: between two of them the time of the
