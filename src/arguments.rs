@@ -8,46 +8,34 @@ use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use crate::geometry::Quote;
 
 /// Exit codes, and where the rest is told.
-macro_rules! afterword {
-    () => {
-        "\
+const AFTERWORD: &str = "
 Exit codes:
   0  converged, and every expected value that must hold does
   1  a failure of the program, PETSc or MPI, or a signal
   2  bad input; nothing is written
   3  not converged, a body that nothing holds, or an expected value missed
 
-The keys of a case: docs/case.md, in packages below /usr/share/doc/mezha"
-    };
-}
+The keys of a case: docs/case.md, in packages below /usr/share/doc/mezha";
 
-const EXAMPLES: &str = concat!(
-    "\
+const EXAMPLES: &str = "\
 Examples:
   mezha new part.msh > case.toml               a first case from a mesh
   mezha check cases/bars_inclined              what would be solved, and a figure of it
   mezha run cases/bars_inclined                solve it on one rank, with results in out/bars_inclined
   mpirun -n 4 mezha run cases/bars_inclined    solve it on four
+";
 
-",
-    afterword!()
-);
-
-const RUN_EXAMPLES: &str = concat!(
-    "\
+const RUN_EXAMPLES: &str = "\
 Examples:
   mezha run cases/bars_inclined
   mezha run cases/bars_inclined --set mesh.refine=5 --out finer
   mezha run cases/bars_inclined --force -- -log_view
   mpirun -n 4 mezha run cases/bars_inclined
-
-",
-    afterword!()
-);
+";
 
 /// Parallel contact of elastic bodies on a contact boundary of its own.
 #[derive(Clone, Debug, Parser, PartialEq, Eq)]
-#[command(name = "mezha", version, arg_required_else_help = true, after_help = EXAMPLES)]
+#[command(name = "mezha", version, arg_required_else_help = true, after_help = format!("{EXAMPLES}{AFTERWORD}"))]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -58,16 +46,24 @@ pub struct Arguments {
 #[derive(Clone, Debug, PartialEq, Eq, Subcommand)]
 pub enum Command {
     /// Solve a case and write its results; start it under mpirun for several ranks
-    #[command(after_help = RUN_EXAMPLES)]
+    #[command(after_help = format!("{RUN_EXAMPLES}{AFTERWORD}"))]
     Run(RunArguments),
     /// Read everything, solve nothing, say what would be solved, and draw it
     Check(CheckArguments),
     /// Write a first case for a mesh to standard output
-    New(NewArguments),
+    New {
+        /// The mesh file
+        #[arg(value_name = "MESH.msh")]
+        mesh: PathBuf,
+    },
     /// Make every run of a grid that is not made yet, each a row of one table; start it without mpirun
     Study(Study),
     /// Print the JSON Schema of case files or study files, for editors and other programs
-    Schema(SchemaArguments),
+    Schema {
+        /// Which files
+        #[arg(value_enum, default_value_t = FileKind::Case)]
+        kind: FileKind,
+    },
     /// Print versions of mezha, PETSc, MPI and BLAS, and the number of ranks
     Info,
 }
@@ -92,14 +88,6 @@ pub struct CheckArguments {
     /// The figure of bodies, supports, loads and contacts; by default out/NAME.check.svg, NAME the folder of the case
     #[arg(long, value_name = "FILE.svg")]
     pub draw: Option<PathBuf>,
-}
-
-/// Arguments of `mezha new`.
-#[derive(Args, Clone, Debug, PartialEq, Eq)]
-pub struct NewArguments {
-    /// The mesh file
-    #[arg(value_name = "MESH.msh")]
-    pub mesh: PathBuf,
 }
 
 /// Arguments of `mezha run`.
@@ -155,14 +143,6 @@ pub struct Study {
     /// Forget the runs in the folder, also those of another study, and make all anew
     #[arg(long)]
     pub force: bool,
-}
-
-/// Arguments of `mezha schema`.
-#[derive(Args, Clone, Debug, PartialEq, Eq)]
-pub struct SchemaArguments {
-    /// Which files
-    #[arg(value_enum, default_value_t = FileKind::Case)]
-    pub kind: FileKind,
 }
 
 /// The files that people write.

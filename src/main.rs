@@ -2,7 +2,7 @@
 
 use clap::Parser;
 use clap::error::ErrorKind as UsageKind;
-use mezha::arguments::{Arguments, CheckArguments, Command, FileKind, NewArguments, RunArguments, Study, nearest_command};
+use mezha::arguments::{Arguments, CheckArguments, Command, FileKind, RunArguments, Study, nearest_command};
 use mezha::case::{Inputs, schema};
 use mezha::output::summary::Status;
 use mezha::petsc::{
@@ -11,6 +11,7 @@ use mezha::petsc::{
 use mezha::run::{self, RunError, RunOptions, interruption};
 use mezha::study::{self, StudyError};
 use std::io::{ErrorKind, Write, stderr, stdout};
+use std::path::Path;
 use std::process::exit;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -30,10 +31,10 @@ fn main() {
     let arguments = Arguments::try_parse().unwrap_or_else(|error| exit(usage(&error)));
     let code = match arguments.command {
         Command::Run(arguments) => run_case(&arguments, started),
-        Command::Check(arguments) => check_case(&arguments),
-        Command::New(arguments) => new_case(&arguments),
+        Command::Check(arguments) => on_first_rank(|| check_case(&arguments)),
+        Command::New { mesh } => on_first_rank(|| new_case(&mesh)),
         Command::Study(arguments) => study(&arguments),
-        Command::Schema(arguments) => print_schema(arguments.kind),
+        Command::Schema { kind } => on_first_rank(|| print_schema(kind)),
         Command::Info => info(),
     };
     exit(code)
@@ -65,6 +66,15 @@ fn usage(error: &clap::Error) -> i32 {
 /// Under mpirun every rank takes part in MPI, even where rank 0 alone has work: the others might wait for it for ever.
 fn take_part() -> Result<Option<Session>, i32> {
     given_rank().map(|_| Session::start(&[], &[]).map_err(cannot_start)).transpose()
+}
+
+/// Work that rank 0 does alone, and its exit code.
+fn on_first_rank(work: impl FnOnce() -> i32) -> i32 {
+    match take_part() {
+        Err(code) => code,
+        Ok(Some(session)) if session.rank() > 0 => 0,
+        Ok(_session) => work(),
+    }
 }
 
 /// The rank that mpirun has given to this process, known before MPI has started; None without mpirun. Where something else has
@@ -166,13 +176,6 @@ fn end_alone(error: &RunError) -> i32 {
 }
 
 fn check_case(arguments: &CheckArguments) -> i32 {
-    let session = match take_part() {
-        Ok(session) => session,
-        Err(code) => return code,
-    };
-    if session.as_ref().is_some_and(|session| session.rank() > 0) {
-        return 0;
-    }
     let (file, overrides) = (&arguments.case.file(), &arguments.case.overrides);
     let checked = run::check_file(file, overrides);
     let drawn = run::draw_case(file, overrides, checked.as_ref().err(), |name| arguments.figure(name));
@@ -207,18 +210,11 @@ fn tell(words: &str) {
     let _ = stderr().write_all(format!("mezha: {words}\n").as_bytes());
 }
 
-fn new_case(arguments: &NewArguments) -> i32 {
-    let session = match take_part() {
-        Ok(session) => session,
-        Err(code) => return code,
-    };
-    if session.as_ref().is_some_and(|session| session.rank() > 0) {
-        return 0;
-    }
+fn new_case(mesh: &Path) -> i32 {
     // Where the case is written to, if that is a file.
     let output = std::fs::read_link("/proc/self/fd/1").ok().filter(|path| path.is_file());
-    let named = run::path_from(output.as_deref().and_then(std::path::Path::parent), &arguments.mesh);
-    match run::first_case(&arguments.mesh, &named) {
+    let named = run::path_from(output.as_deref().and_then(Path::parent), mesh);
+    match run::first_case(mesh, &named) {
         Ok(first) => {
             first.remarks.iter().for_each(|words| tell(&format!("warning: {words}")));
             say(first.text.trim_end())
@@ -228,14 +224,10 @@ fn new_case(arguments: &NewArguments) -> i32 {
 }
 
 fn print_schema(kind: FileKind) -> i32 {
-    match take_part() {
-        Err(code) => code,
-        Ok(session) if session.as_ref().is_some_and(|session| session.rank() > 0) => 0,
-        Ok(_) => say(&schema::json(match kind {
-            FileKind::Case => &schema::CASE,
-            FileKind::Study => &schema::STUDY,
-        })),
-    }
+    say(&schema::json(match kind {
+        FileKind::Case => &schema::CASE,
+        FileKind::Study => &schema::STUDY,
+    }))
 }
 
 fn study(arguments: &Study) -> i32 {
