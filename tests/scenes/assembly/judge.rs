@@ -164,7 +164,8 @@ fn solved(ended: &Ended, assembly: &Assembly, forces: Option<&Vec<f64>>) -> Resu
 /// Refused with a motion of a body that contact and holds leave free, and loads do not resist.
 fn refused(said: &str, assembly: &Assembly) -> Result<String, String> {
     let Some((member, motion, words)) = motion(said, assembly) else { return Err(format!("no motion is told: {said}")) };
-    let known = |sign: f64| assembly.motions().into_iter().map(move |(k, c)| (k == member).then_some(sign * motion[c]));
+    let known =
+        |sign: f64| assembly.motions().into_iter().map(move |(k, c)| motion[c].filter(|_| k == member).map(|moves| sign * moves));
     if [1.0, -1.0].iter().any(|sign| assembly.statics().is_free(&known(*sign).collect::<Vec<_>>())) {
         Ok(format!("refused: {words}"))
     } else {
@@ -172,19 +173,24 @@ fn refused(said: &str, assembly: &Assembly) -> Result<String, String> {
     }
 }
 
-/// "body b3 can move by (x, y)", "... can turn about (x, y)": the member and its motion, in one direction or the other.
-fn motion(said: &str, assembly: &Assembly) -> Option<(usize, [f64; 3], String)> {
-    let at = said.find(" can move by (").or_else(|| said.find(" can turn about ("))?;
+/// "body b3 can move by (x, y)", "... can turn about (x, y)": the member and its motion, in one direction or the other. "... turns
+/// most, by": a turn that contact stops too late, whatever shift goes with it.
+fn motion(said: &str, assembly: &Assembly) -> Option<(usize, [Option<f64>; 3], String)> {
+    const MOST: &str = " turns most, by ";
+    let at = [" can move by (", " can turn about (", MOST].iter().find_map(|words| said.find(words))?;
     let name = said[..at].rsplit([' ', '.']).next()?;
     let member: usize = name.trim_start_matches('b').parse().ok().filter(|k| *k < assembly.members.len())?;
     let rest = &said[at..];
+    if rest.starts_with(MOST) {
+        return Some((member, [None, None, Some(1.0)], format!("{name}{MOST}too much")));
+    }
     let numbers = &rest[rest.find('(')? + 1..rest.find(')')?];
     let [x, y] = numbers.split(", ").map(|number| number.parse().ok()).collect::<Option<Vec<f64>>>()?.try_into().ok()?;
     let words = format!("{name}{}", &rest[..=rest.find(')')?]);
     if rest.starts_with(" can move") {
-        return Some((member, [x, y, 0.0], words));
+        return Some((member, [x, y, 0.0].map(Some), words));
     }
     let middle = assembly.members[member].middle();
     let [x, y] = [middle[0] - x / assembly.scale, middle[1] - y / assembly.scale];
-    Some((member, [-y, x, 1.0], words))
+    Some((member, [-y, x, 1.0].map(Some), words))
 }
