@@ -151,7 +151,7 @@ impl NodeSums {
             if let Some(&(set, x)) = set_of.get(&node) {
                 (0..3).for_each(|k| sums.rigid[set][k] += reaction.dot(&sets[set].mode(k, x)));
             }
-            holders.shares(node, reaction).into_iter().for_each(|(support, force)| sums.reactions[support] += force);
+            holders.shares(node, reaction).for_each(|(support, force)| sums.reactions[support] += force);
         }
         Ok(sums.of_all_ranks(session))
     }
