@@ -190,7 +190,7 @@ fn a_downward_import_is_none_of_its_business() {
         ("system", "use crate::petsc::{Matrix, Vector};\nuse crate::{body, contact::{Pair, Law}};"),
         ("mesh", "// use crate::body::Body; unsafe\nuse crate::geometry::Point;\nuse crate::mesh::lattice;"),
         ("petsc", "use mpi::ffi;\nunsafe { f() }"),
-        ("main", "use mezha::run::{self, Outcome};\nuse mezha::case::Case;"),
+        ("main", "use mezha::run::{self, RunError};\nuse mezha::case::Case;"),
         ("element", "/// See crate::system.\nlet simple = not_crate::body();"),
     ] {
         assert_eq!(complaints(module, text), Vec::<String>::new(), "{module}: {text}");

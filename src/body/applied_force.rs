@@ -1,10 +1,7 @@
 //! Nodal forces of loads and body forces.
 
-use super::BodyPart;
-use super::Load;
-use super::LoadKind;
-use super::PointLoad;
 use super::node_positions::NodePositions;
+use super::{BodyPart, Load, LoadKind, PointLoad};
 use crate::element::{BadJacobian, by_order, edge_load, heat_load, triangle_load};
 use crate::geometry::Point;
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, Partition, lattice};

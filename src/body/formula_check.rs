@@ -1,9 +1,7 @@
 //! Formulas of loads and forces where they are integrated: the first that has no finite value there, in words.
 
-use super::BodyPart;
-use super::Load;
-use super::LoadKind;
 use super::node_positions::NodePositions;
+use super::{BodyPart, Load, LoadKind};
 use crate::element::{BadJacobian, by_order, edge_load, triangle_load};
 use crate::geometry::{Formula, Point};
 use crate::mesh::{BoundaryEdge, Level, MacroMesh, Numbering, lattice};

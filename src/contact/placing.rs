@@ -5,9 +5,7 @@ use super::cutting::fractions;
 use super::pair::{Configuration, CurveChoice, Pair, SegmentRule};
 use super::side::Side;
 use super::smooth_side::{Displacement, SmoothSide};
-use crate::contact::fit::Meeting;
-use crate::contact::fit::PointContact;
-use crate::contact::fit::stray;
+use crate::contact::fit::{Meeting, PointContact, stray};
 use crate::geometry::{Curve, Point};
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering};
 

@@ -1,9 +1,8 @@
 //! Plane curves with a parameter.
 
-use super::Point;
-use super::cross;
 use super::parametric_curve::{self, ParametricCurve};
 use super::spline::Spline;
+use super::{Point, cross};
 use std::f64::consts::TAU;
 
 /// A plane curve `t -> (x, y)` over a range of its parameter.

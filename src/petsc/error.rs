@@ -23,16 +23,9 @@ pub enum Error {
         /// PETSc's own words, from the innermost function that failed.
         message: String,
     },
-    /// A linear solver stopped without a solution.
-    #[error("linear solver: {reason} after {iterations} iterations, residual {residual:.3e}")]
-    NotConverged {
-        /// Name of the reason, such as `KSP_DIVERGED_ITS`; what failed in the preconditioner follows in words.
-        reason: String,
-        /// Iterations done.
-        iterations: usize,
-        /// Norm of the last residual.
-        residual: f64,
-    },
+    /// The matrix of the coarsest level has no factor.
+    #[error("linear solver: the coarsest level has a zero pivot: its matrix is singular")]
+    Singular,
     /// Memory has run out.
     #[error("memory: {call} could get no more of it")]
     OutOfMemory {

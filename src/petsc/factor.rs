@@ -23,7 +23,7 @@ impl Factor {
     /// Of a square matrix with the given rows: columns and values. No other rank takes part.
     ///
     /// # Errors
-    /// PETSc's, and [`Error::NotConverged`] if a pivot is zero: the matrix is singular.
+    /// PETSc's, and [`Error::Singular`] if a pivot is zero: the matrix is singular.
     pub fn new(session: &Session, rows: &[(Vec<Index>, Vec<f64>)]) -> Result<Self> {
         let alone = unsafe { mpi::ffi::RSMPI_COMM_SELF };
         let n = length(rows.len());
@@ -50,16 +50,10 @@ impl Factor {
         let mut failure = ffi::MatFactorError::MAT_FACTOR_NOERROR;
         petsc!(MatFactorGetError(factor.raw(), &mut failure))?;
         if failure != ffi::MatFactorError::MAT_FACTOR_NOERROR {
-            return Err(Self::singular());
+            return Err(Error::Singular);
         }
         let vector = || Vector::alone(session, counts.len());
         Ok(Self { right_hand_side: vector()?, solution: vector()?, factor })
-    }
-
-    /// The error of a singular matrix, which has no factor.
-    pub fn singular() -> Error {
-        let reason = "the coarsest level has a zero pivot: its matrix is singular".to_string();
-        Error::NotConverged { reason, iterations: 0, residual: 1.0 }
     }
 
     /// `x = A⁻¹ b`: `set` writes `b`, `get` reads `x`.

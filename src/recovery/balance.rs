@@ -3,9 +3,9 @@
 use super::contact_forces::{ContactForce, contact_forces};
 use super::node_sums::{ForceSum, NodeSums};
 use crate::body::Motion;
-use crate::discretisation::SpringForces;
-use crate::discretisation::internal_forces;
-use crate::discretisation::{Contact, Discretisation, Field, Solution, SystemError, rigid_motions};
+use crate::discretisation::{
+    Contact, Discretisation, Field, Solution, SpringForces, SystemError, internal_forces, rigid_motions,
+};
 use crate::element::Plane;
 use crate::geometry::{Point, cross};
 use crate::petsc::Session;

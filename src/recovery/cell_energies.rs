@@ -1,8 +1,7 @@
 //! Where in the macro triangles the strain energy of a displacement lies.
 
 use crate::body::NodePositions;
-use crate::discretisation::agreed;
-use crate::discretisation::{Discretisation, Field, SystemError};
+use crate::discretisation::{Discretisation, Field, SystemError, agreed};
 use crate::element::{BadJacobian, PlaneLaw, by_order, energies};
 use crate::geometry::Point;
 use crate::mesh::{Cells, lattice};

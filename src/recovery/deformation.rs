@@ -1,8 +1,7 @@
 //! How far the bodies are strained and turned: whether a theory of small strains and rotations holds.
 
 use crate::body::positions;
-use crate::discretisation::agreed;
-use crate::discretisation::{Discretisation, Field, SystemError};
+use crate::discretisation::{Discretisation, Field, SystemError, agreed};
 use crate::element::{Heat, Plane, PlaneLaw, Strain, by_order, jacobian, place_of, strain};
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, MacroTriangle, lattice};

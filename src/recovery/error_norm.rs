@@ -1,8 +1,7 @@
 //! Error of the stress in the energy norm, against formulas.
 
 use crate::body::NodePositions;
-use crate::discretisation::agreed;
-use crate::discretisation::{Discretisation, Field, SystemError};
+use crate::discretisation::{Discretisation, Field, SystemError, agreed};
 use crate::element::{Heat, PlaneLaw, SIX_POINTS, by_order, six_points, strain};
 use crate::geometry::Formula;
 use crate::mesh::{Region, lattice};

@@ -1,8 +1,7 @@
 //! Displacement and stress at a point of a body.
 
 use crate::body::positions;
-use crate::discretisation::agreed;
-use crate::discretisation::{Discretisation, Field, SystemError};
+use crate::discretisation::{Discretisation, Field, SystemError, agreed};
 use crate::element::{Heat, PlaneLaw, SIX_POINTS, by_order, heated_stress, shape, stress};
 use crate::geometry::Point;
 use crate::mesh::Region;

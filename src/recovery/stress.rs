@@ -1,8 +1,7 @@
 //! Stress at the nodes.
 
 use crate::body::NodePositions;
-use crate::discretisation::agreed;
-use crate::discretisation::{Discretisation, Field, SystemError};
+use crate::discretisation::{Discretisation, Field, SystemError, agreed};
 use crate::element::{Heat, PlaneLaw, by_order, nodal_stresses};
 use crate::mesh::{MacroMesh, lattice};
 use crate::petsc::Session;

@@ -2,8 +2,7 @@
 
 use crate::body::positions;
 use crate::contact::{Distance, EdgeOverlap, edge_overlaps, trace};
-use crate::discretisation::agreed;
-use crate::discretisation::{Contact, ContactPressure, Discretisation, Field, SystemError};
+use crate::discretisation::{Contact, ContactPressure, Discretisation, Field, SystemError, agreed};
 use crate::element::{Heat, PlaneLaw, by_order, heated_stress};
 use crate::geometry::{Point, gauss_points};
 use crate::mesh::BoundaryEdge;

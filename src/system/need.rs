@@ -1,17 +1,14 @@
 //! How much memory a run will take, before it takes it.
 //!
-//! Rows of the stiffness are counted, since bent and graded macro triangles store all of theirs and even ones next to none; all else goes
+//! Rows of the stiffness are counted, since bent macro triangles store all of theirs, graded ones share most of them, and even ones store next to none; all else goes
 //! with the unknowns of the finest level and with the macro triangles. Processes and libraries, some 60 MB for each rank, are
 //! there already when this is asked.
 
-use crate::discretisation::node_count;
-use crate::discretisation::ranks_in_group;
-use crate::discretisation::{Form, Scene};
+use crate::discretisation::{Form, Scene, node_count, ranks_in_group};
 use crate::element::Order;
 use crate::mesh::{Level, Numbering, lattice, levels};
 use crate::system::choice::{SolverChoice, Tolerance};
-use crate::system::solver::MANY;
-use crate::system::solver::Preconditioning;
+use crate::system::solver::{MANY, Preconditioning};
 
 /// Bytes for each unknown of the displacement in vectors, preconditioner and interpolations, at the peak of a solve: with GMRES, of
 /// some ten iterations; with BiCGStab, on so many unknowns that it takes the place of GMRES; and where BiCGStab does not come to a
@@ -39,6 +36,9 @@ const BY_PARTITION: f64 = 52.0;
 const BY_BLOCK: f64 = 36.0;
 const BY_ROW: f64 = 44.0;
 
+/// The column of a block that other rows of a graded macro triangle have, too.
+const BY_SHARED_BLOCK: f64 = 4.0;
+
 /// Share of the stored rows that is there at the peak; measured on whole rings, which store most of theirs.
 const AT_THE_PEAK: f64 = 0.6;
 
@@ -61,12 +61,15 @@ pub fn memory_need(scene: &Scene, refine: usize, (choice, tolerance): (SolverCho
     let of_macro_mesh = memory_of_macro_mesh(scene) + memory_of_partitions(scene, &levels);
     // Where boundaries follow the solution, each has its own copy.
     let copies = if scene.pairs.iter().any(|pair| pair.follows()) { 2.0 } else { 1.0 };
-    let rows = |level: Level, count: usize| {
-        AT_THE_PEAK * copies * count as f64 * (BY_ROW + BY_BLOCK * BLOCKS[usize::from(level.order == Order::P2)])
-    };
+    let by_row =
+        |level: Level, by_block: f64| AT_THE_PEAK * copies * (BY_ROW + by_block * BLOCKS[usize::from(level.order == Order::P2)]);
     match choice.form() {
         Form::Augmented => {
-            let of_levels = |&level: &Level| rows(level, nodes(level).range(rank).len() - nodes_not_stored(scene, level, rank));
+            let of_levels = |&level: &Level| {
+                let [whole, shared] = nodes_inside(scene, level, rank);
+                let stored = nodes(level).range(rank).len() - whole - shared;
+                by_row(level, BY_BLOCK) * stored as f64 + by_row(level, BY_SHARED_BLOCK) * shared as f64
+            };
             let flat = Preconditioning::of(refine + 1, &scene.mesh.ratios) != Preconditioning::Sweep;
             let more = if flat { BY_UNKNOWN_IF_FLAT } else { 0.0 };
             let is_large = !flat && 2 * nodes(finest).node_count() > MANY;
@@ -79,7 +82,7 @@ pub fn memory_need(scene: &Scene, refine: usize, (choice, tolerance): (SolverCho
             let [at_a_million, growth] = BY_FACTOR[usize::from(scene.order == Order::P2)];
             let all = 2.0 * nodes(finest).node_count() as f64;
             let by_unknown = (at_a_million + growth * (all / 1e6).ln() / 4f64.ln()).max(0.5 * at_a_million);
-            of_macro_mesh + by_unknown * unknowns + rows(finest, nodes(finest).range(rank).len())
+            of_macro_mesh + by_unknown * unknowns + by_row(finest, BY_BLOCK) * nodes(finest).range(rank).len() as f64
         }
     }
 }
@@ -98,11 +101,12 @@ fn memory_of_partitions(scene: &Scene, levels: &[Level]) -> f64 {
     BY_PARTITION * (groups.len() * scene.mesh.triangles.len()) as f64
 }
 
-/// Nodes of a rank whose rows are not stored.
-fn nodes_not_stored(scene: &Scene, level: Level, rank: usize) -> usize {
-    let own = scene.partition.triangles_of(rank).iter();
-    let whole = own.filter(|triangle| scene.mesh.is_whole(**triangle as usize, level)).count();
-    whole * lattice::inner_count(level.intervals)
+/// Nodes of a rank inside of macro triangles: those whose rows are not stored, and those whose rows share their blocks.
+fn nodes_inside(scene: &Scene, level: Level, rank: usize) -> [usize; 2] {
+    let own = scene.partition.triangles_of(rank).iter().map(|&triangle| triangle as usize);
+    let (whole, others): (Vec<usize>, Vec<usize>) = own.partition(|&triangle| scene.mesh.is_whole(triangle, level));
+    let shared = others.into_iter().filter(|&triangle| scene.mesh.repeats(triangle)).count();
+    [whole.len(), shared].map(|count| count * lattice::inner_count(level.intervals))
 }
 
 #[cfg(test)]

@@ -13,11 +13,10 @@
 //! no active set changes; [`super::SaddlePoint`] has what becomes of them in a system.
 
 use crate::body::{Motion, RigidNodes, RigidSet, UNIT_MOTIONS, rigid_displacement};
-use crate::discretisation::SpringForces;
-use crate::discretisation::internal_forces;
-use crate::discretisation::rigid_motions;
-use crate::discretisation::{Discretisation, Field, Space, SystemError, nodal_forces};
-use crate::discretisation::{held_motions, holds_of_bodies};
+use crate::discretisation::{
+    Discretisation, Field, Space, SpringForces, SystemError, held_motions, holds_of_bodies, internal_forces, nodal_forces,
+    rigid_motions,
+};
 use crate::geometry::Point;
 use crate::mesh::lattice;
 use crate::multigrid::Sparse;

@@ -149,7 +149,7 @@ fn read_single(section: &Section, contacts: &[Pair], root: &Section) -> Option<(
     Some((name.into(), own))
 }
 
-/// Only unilateral contact ends where the solution says.
+/// Words for ends that are asked of bilateral contact: only unilateral contact ends where the solution says.
 fn no_ends(which: &str) -> String {
     format!(
         "{which} bilateral, presses and pulls all along, and has no ends to be found; leave it out, or give law = \"unilateral\""

@@ -1,8 +1,7 @@
 //! What a displacement does inside the bodies: the forces `K u` of their stresses at the nodes, and strain energies.
 
 use crate::body::{MacroStiffness, one_stiffness, one_triangle};
-use crate::discretisation::error::SystemError;
-use crate::discretisation::error::agreed;
+use crate::discretisation::error::{SystemError, agreed};
 use crate::discretisation::field::Field;
 use crate::discretisation::levels::Discretisation;
 use crate::element::{PlaneLaw, by_order};

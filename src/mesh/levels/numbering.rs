@@ -4,8 +4,7 @@ use crate::element::Order;
 use crate::mesh::lattice;
 use crate::mesh::lattice::Place;
 use crate::mesh::macro_mesh::MacroMesh;
-use crate::mesh::partition::Home;
-use crate::mesh::partition::Partition;
+use crate::mesh::partition::{Home, Partition};
 use std::ops::Range;
 use std::rc::Rc;
 

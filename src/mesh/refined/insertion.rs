@@ -7,8 +7,7 @@
 
 use crate::geometry::{Point, cross};
 use crate::mesh::located::Located;
-use crate::mesh::macro_mesh::smallest_angle;
-use crate::mesh::macro_mesh::{MacroMesh, MacroTriangle};
+use crate::mesh::macro_mesh::{MacroMesh, MacroTriangle, smallest_angle};
 use crate::mesh::refined::bisection::BisectedMesh;
 use crate::mesh::spot::{NamedPoint, Spot};
 use std::collections::HashSet;

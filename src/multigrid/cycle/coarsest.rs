@@ -31,7 +31,7 @@ impl Coarsest {
     /// Of the coarsest level, with its factor. **Collective**
     ///
     /// # Errors
-    /// [`Error::NotConverged`] on every rank if the level is singular.
+    /// [`Error::Singular`] on every rank if the level is singular.
     pub fn new(lattice: &Rc<LatticeOperator>, is_small: bool, session: &Session) -> Result<Self> {
         let solver = if is_small { CoarsestSolver::Factor(factor(lattice, session)?) } else { shared(lattice, session)? };
         let nodes = vec![[0.0; 2]; lattice.node_count()];
@@ -75,8 +75,8 @@ fn factor(lattice: &LatticeOperator, session: &Session) -> Result<Option<Factor>
     assert_eq!(lattice.far_count(), 0, "one rank has all nodes of the coarsest level");
     let has_nodes = lattice.node_count() > 0;
     let factor = has_nodes.then(|| Factor::new(session, &lattice.rows().borrow().scalar_rows())).transpose();
-    let is_singular = matches!(factor, Err(Error::NotConverged { .. }));
-    if session.any(is_singular) { Err(Factor::singular()) } else { factor }
+    let is_singular = matches!(factor, Err(Error::Singular));
+    if session.any(is_singular) { Err(Error::Singular) } else { factor }
 }
 
 /// **Collective**
@@ -94,5 +94,5 @@ fn factorise(solver: &Krylov, rows: &mut Matrix, session: &Session) -> Result<()
     rows.set_positive_definite(true)?;
     solver.set_operators(rows, rows)?;
     solver.set_up()?;
-    if session.any(solver.preconditioner().has_failed()?) { Err(Factor::singular()) } else { Ok(()) }
+    if session.any(solver.preconditioner().has_failed()?) { Err(Error::Singular) } else { Ok(()) }
 }

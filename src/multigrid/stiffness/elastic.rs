@@ -1,10 +1,8 @@
 //! The bodies without contact: what no contact boundary and no active set changes.
 
-use super::ContactNeighbours;
-use super::SolverView;
-use super::Stiffness;
 use super::assembly::{Assembled, Assembly};
 use super::lattice_operator::LatticeOperator;
+use super::{ContactNeighbours, SolverView, Stiffness};
 use crate::discretisation::{Discretisation, Form, SMALL, SystemError};
 use crate::geometry::Point;
 use crate::multigrid::user_options::takes_another_preconditioner;

@@ -1,13 +1,12 @@
 //! The stiffness of a level, its rows stored, or those of even macro triangles: what PETSc's solvers see of it.
 
-use super::ContactNeighbours;
-use super::RowPlaces;
 use super::couplings::Couplings;
 use super::even_triangles::EvenTriangles;
 use super::lattice_rows::LatticeRows;
 use super::stored_rows::{BlockColumn, BlockPlace, StoredRows};
 use super::sweep_order::{SweepHalves, SweepOrder};
 use super::sweep_rows::SweepRows;
+use super::{ContactNeighbours, RowPlaces};
 use crate::element::Block;
 use crate::petsc::{Halo, Operator, Result, Session, Vector};
 use std::cell::RefCell;

@@ -12,7 +12,7 @@ use std::ops::Range;
 const FEW: usize = 32;
 
 /// Rows of some nodes of this rank. Columns count the nodes of this rank from 0; those of others have places in a list of
-/// their own. Rows with the same couplings share them: along an edge of the macro mesh, or inside along its sides, most are.
+/// their own. Rows with the same couplings share them: along an edge of the macro mesh, or inside of a graded macro triangle, most are.
 #[derive(Clone, Default)]
 pub struct StoredRows {
     /// The nodes, ascending, counted from this rank's first.

@@ -8,7 +8,7 @@ use std::ops::Range;
 pub enum SweepHalves {
     /// The forward half alone.
     Forward,
-    /// The forward half from zero: values that are still to come are not read.
+    /// The forward half alone, from zero, whatever the inner nodes of even macro triangles hold; all others hold zeros.
     ForwardFromZero,
     /// Both halves, the forward one first.
     Both,

@@ -31,7 +31,7 @@ pub struct PieceNode {
     pub stress: [f64; 4],
     /// Von Mises stress.
     pub von_mises: f64,
-    /// Temperature; any number if no body is heated.
+    /// Temperature; zero of what is not heated.
     pub temperature: f64,
 }
 

@@ -49,11 +49,12 @@ pub fn listed<S: AsRef<str>>(names: &[S]) -> String {
 pub fn clauses(reason: &str) -> Vec<&str> {
     let mut depth = 0_i32;
     let parts = reason.split(|letter| {
-        depth += match letter {
-            '(' => 1,
-            ')' => -1,
-            _ => 0,
-        };
+        match letter {
+            '(' => depth += 1,
+            // A bracket that nothing has opened closes nothing.
+            ')' => depth = (depth - 1).max(0),
+            _ => {}
+        }
         letter == ';' && depth == 0
     });
     parts.map(str::trim).filter(|part| !part.is_empty()).collect()

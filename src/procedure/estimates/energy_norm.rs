@@ -7,8 +7,7 @@
 //! contact and too stiff bodies cancel in it (1.4e-6 of U, P2), while the estimate is 1.6e-2 and an independent program found
 //! 1.4e-2 on about such a mesh.
 
-use crate::discretisation::local_strain_energy;
-use crate::discretisation::{Discretisation, Field, Solution, SystemError};
+use crate::discretisation::{Discretisation, Field, Solution, SystemError, local_strain_energy};
 use crate::petsc::Session;
 use crate::recovery::heat_energies;
 

@@ -110,9 +110,11 @@ fn still_moving(judged: &Judged) -> Option<String> {
 fn moved_too_far(judged: &Judged) -> Option<String> {
     let error = |contact: &ContactSummary| contact.slip_error.unwrap_or(0.0).max(contact.rotation_error.unwrap_or(0.0));
     let counting = judged.contacts().filter(|(_, contact)| contact.force.is_some_and(|force| force.abs() > judged.least_force()));
-    let (name, off) = counting.map(|(name, contact)| (name, error(contact))).max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let turns = judged.summary.rotation.iter().filter_map(|(body, angle)| Some((body, angle.filter(|angle| *angle != 0.0)?)));
-    let farthest = turns.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    let (name, contact) = counting.max_by(|a, b| error(a.1).total_cmp(&error(b.1)))?;
+    let off = error(contact);
+    let turning = contact.rotation_error.filter(|turning| *turning > FORCE_OFF);
+    let angles = judged.summary.rotation.iter().filter_map(|(body, angle)| Some((body, (*angle)?)));
+    let farthest = turning.and_then(|_| angles.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())));
     let turns = farthest.map_or(String::new(), |(body, angle)| format!("body {body} turns most, by {} radians; ", short(angle)));
     (off > FORCE_OFF).then(|| {
         format!(

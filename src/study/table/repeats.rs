@@ -67,14 +67,16 @@ pub fn condensed(table: &Table) -> Table {
         let severity = |row: &usize| (table.statuses[*row], usize::MAX - row);
         group.clone().max_by_key(severity).unwrap_or(group.start)
     };
+    // Columns of the summary may have these names, too: the first ones are those of the run.
+    let [status, reason, repeat] = ["status", "reason", "repeat"].map(|name| table.place(name));
     let row = |group: &Range<usize>| {
         let first = table.converged(group.clone()).next().unwrap_or(group.start);
         let mut cells = table.rows[first].clone();
         for (at, column) in table.columns.iter().enumerate() {
             let median = table.place(&format!("{}.median", column.name));
-            match column.name.as_str() {
-                "status" | "reason" => cells[at] = table.rows[worst(group)][at].clone(),
-                "repeat" => {
+            match Some(at) {
+                place if place == status || place == reason => cells[at] = table.rows[worst(group)][at].clone(),
+                place if place == repeat => {
                     cells[at] = match (table.converged(group.clone()).count(), group.len()) {
                         (converged, all) if all == converged => all.into(),
                         (converged, all) => format!("{converged} of {all}").into(),

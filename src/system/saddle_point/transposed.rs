@@ -1,7 +1,6 @@
 //! `B̂ᵀ (I - D̂ Ĉ)` by its columns: all but few of its rows are empty, and a matrix by rows has its tables for each of them.
 
-use crate::discretisation::Components;
-use crate::discretisation::Space;
+use crate::discretisation::{Components, Space};
 use crate::geometry::Point;
 use crate::petsc::{Gather, Index, Result, Session, Transfer, Vector};
 use std::cell::{Cell, RefCell};

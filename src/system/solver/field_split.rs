@@ -36,7 +36,8 @@ pub fn field_split(
     let levels = match preconditioning {
         Preconditioning::Factor => None,
         _ if takes_another_preconditioner(session) => {
-            // Without multipliers PETSc takes the whole nest for its first block: no preconditioner makes anything of a nest.
+            // Without multipliers PETSc takes the whole nest for its first block: no preconditioner makes anything of a nest. With
+            // multipliers this is the block that it has.
             let stiffness = system.finest_stiffness().operator();
             preconditioner.field_split_solvers()?[0].set_operators(stiffness, stiffness)?;
             None
