@@ -35,10 +35,10 @@ pub struct NodeInterpolation {
 }
 
 /// Nodes in the middle of two parents, and the other couplings, as [`NodeInterpolation`] has them.
-type Lists = (Vec<[u32; 3]>, Vec<(u32, u32, f64)>, Vec<(u32, u32, Block)>);
+type CouplingLists = (Vec<[u32; 3]>, Vec<(u32, u32, f64)>, Vec<(u32, u32, Block)>);
 
 /// The lists of the nodes that have these parents; `far` are the coarse nodes of other ranks, ascending.
-fn lists(rows: &NodeParents, fine: &Space, coarse: &Space, far: &[usize]) -> Lists {
+fn lists(rows: &NodeParents, fine: &Space, coarse: &Space, far: &[usize]) -> CouplingLists {
     let place = |node: usize| match coarse.own.contains(&node) {
         true => (node - coarse.own.start) as u32,
         false => (coarse.own.len() + far.binary_search(&node).expect("a known node")) as u32,
