@@ -1,8 +1,7 @@
 //! Stiffness of one macro triangle at one level, row by row of its lattice.
 
-use super::node_positions::{NodePositions, positions};
+use super::node_positions::{NodePositions, positions, positions_of_one, with_midsides};
 use crate::element::{BadJacobian, Block, Order, PlaneLaw, stiffness};
-use crate::geometry::Point;
 use crate::mesh::{Level, MacroMesh, Shapes, lattice};
 
 /// Steps from a node to the nodes that share a triangle with it; those outside the lattice do not exist.
@@ -200,12 +199,7 @@ impl MacroStiffness {
     }
 }
 
-/// Lattice nodes of a macro triangle that is a single triangle: its corners, then its midsides.
-pub fn one_triangle<const N: usize>(level: Level) -> [(usize, usize); N] {
-    lattice::Triangle::at(0, 0, level.order, false).nodes()
-}
-
-/// Stiffness of a macro triangle that is a single triangle, by these nodes.
+/// Stiffness of a macro triangle that is a single triangle: its corners, then its midsides.
 ///
 /// # Errors
 /// [`BadJacobian`] if it is turned inside out.
@@ -215,24 +209,14 @@ pub fn one_stiffness<const N: usize>(
     level: Level,
     law: &PlaneLaw,
 ) -> Result<[[Block; N]; N], BadJacobian> {
-    let nodes = one_triangle::<N>(level);
-    if mesh.is_curved(triangle) {
-        return stiffness(&positions(mesh, triangle, level, &nodes), law, false);
-    }
-    let corners = mesh.corners(triangle);
-    stiffness(&with_midsides(corners), law, true)
-}
-
-/// Nodes of a straight triangle: its corners, and for P2 the midsides of (01), (12), (20).
-fn with_midsides<const N: usize>(corners: [Point; 3]) -> [Point; N] {
-    std::array::from_fn(|a| if a < 3 { corners[a] } else { 0.5 * (corners[a - 3] + corners[(a - 2) % 3]) })
+    stiffness(&positions_of_one(mesh, triangle, level), law, !mesh.is_curved(triangle))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::element::Plane;
-    use crate::geometry::Curve;
+    use crate::geometry::{Curve, Point};
     use crate::mesh::samples::two_blocks;
 
     const LAW: PlaneLaw = PlaneLaw { lambda: 3.0, mu: 2.0, across: 3.0, plane: Plane::Strain };

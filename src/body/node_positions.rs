@@ -8,6 +8,19 @@ pub fn positions<const N: usize>(mesh: &MacroMesh, triangle: usize, level: Level
     nodes.map(|node| mesh.node_position(triangle, level, node))
 }
 
+/// Positions of the nodes of a macro triangle that is a single triangle: its corners, then its midsides.
+pub fn positions_of_one<const N: usize>(mesh: &MacroMesh, triangle: usize, level: Level) -> [Point; N] {
+    if mesh.is_curved(triangle) {
+        return positions(mesh, triangle, level, &lattice::Triangle::at(0, 0, level.order, false).nodes());
+    }
+    with_midsides(mesh.corners(triangle))
+}
+
+/// Nodes of a straight triangle: its corners, and for P2 the midsides of (01), (12), (20).
+pub fn with_midsides<const N: usize>(corners: [Point; 3]) -> [Point; N] {
+    std::array::from_fn(|a| if a < 3 { corners[a] } else { 0.5 * (corners[a - 3] + corners[(a - 2) % 3]) })
+}
+
 /// Positions of all its nodes: each is worked out once, though six triangles meet there.
 pub struct NodePositions {
     n: usize,

@@ -4,7 +4,7 @@
 //! each level, the [`Contact`]s with their segments and multipliers, and their [`Coupling`] to the bodies; the forces that
 //! loads, springs and stresses make at the nodes; and what supports and contact leave free to move.
 //!
-//! In reading order: `scene.rs`, `space.rs`, `contacts/`, `field.rs`, `held_bodies.rs`, `levels.rs`; then `displacement.rs`, `forces/`,
+//! In reading order: `scene.rs`, `space.rs`, `contacts/`, `field.rs`, `held_bodies.rs`, `levels.rs`; then `displacement.rs`, `elements.rs`, `forces/`,
 //! `motions/`.
 //!
 //! - Invariant: no rank asks another about the mesh; each computes the numbers of the nodes of all others.
@@ -13,6 +13,7 @@
 
 mod contacts;
 mod displacement;
+mod elements;
 mod error;
 mod field;
 mod forces;
@@ -30,6 +31,7 @@ mod space;
 pub use contacts::{
     BoundaryMotion, Contact, ContactPressure, Coupled, Coupling, beside, bilateral, check_soundness, coupled_here, widest,
 };
+pub use elements::Element;
 pub use error::{SystemError, agreed};
 pub use field::Field;
 pub use forces::{SpringForces, internal_forces, load, local_strain_energy, nodal_forces};

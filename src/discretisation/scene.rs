@@ -148,10 +148,13 @@ impl Scene {
 /// # Errors
 /// What PETSc says.
 pub fn spread(mesh: &MacroMesh, pairs: &[Pair], order: Order, refine: usize, session: &Session) -> petsc::Result<Partition> {
+    if session.size() == 1 {
+        return Ok(Partition::new(mesh, &vec![0; mesh.triangles.len()], 1));
+    }
     let side = |name: &String| mesh.boundary(name).map(|found| found.edges.as_slice()).unwrap_or(&[]);
     let sides: Vec<[&[u32]; 2]> = pairs.iter().map(|pair| pair.between.each_ref().map(side)).collect();
     let graph = Graph::new(mesh, &sides);
-    let (size, work) = (session.size(), mesh.work(order, refine));
+    let (size, work) = (session.size(), graph.work_of_vertices(&mesh.work(order, refine)));
     let ranks = partition(session, size, &graph.offsets, &graph.neighbours, &graph.connection_weights, &work)?;
-    Ok(Partition::new(mesh, &ranks, session.size()))
+    Ok(Partition::new(mesh, &graph.ranks_of_triangles(&ranks), size))
 }

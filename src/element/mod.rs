@@ -15,7 +15,9 @@ pub use measure::{MEASURE_NAMES, MEASURES, StressMeasure};
 pub use nodal_stress::nodal_stresses;
 pub use plane_law::{Heat, Plane, PlaneLaw, Strain, von_mises};
 pub use shape::{edge_shape, edge_slope, shape, slopes};
-pub use stiffness::{Rule, SIX_POINTS, check_map, energies, heated_stress, six_points, stiffness, strain, stress};
+pub use stiffness::{
+    Rule, SIX_POINTS, check_map, energies, heated_stress, internal_forces, six_points, stiffness, strain, stress, times,
+};
 
 /// A function of triangles with as many nodes as an order has, called for it: `by_order!(order, f(x))` is `f::<3>(x)` for P1, and
 /// `f::<6>(x)` for P2.

@@ -99,6 +99,40 @@ pub fn stiffness<const N: usize>(nodes: &[Point; N], law: &PlaneLaw, straight: b
     Ok(k)
 }
 
+/// Internal forces `∫σ:∇N_a` of the nodal displacements `u` (force per thickness; of the whole ring in a body of revolution): the
+/// product of the [`stiffness`] with them.
+///
+/// # Errors
+/// As of [`stiffness`].
+pub fn internal_forces<const N: usize>(
+    nodes: &[Point; N],
+    u: &[Point; N],
+    law: &PlaneLaw,
+    straight: bool,
+) -> Result<[Point; N], BadJacobian> {
+    let mut forces = [Point::zeros(); N];
+    if law.plane == Plane::Revolution {
+        for (force, row) in forces.iter_mut().zip(revolution::stiffness(nodes, law)?) {
+            *force = row.iter().zip(u).map(|(block, u)| times(block, u)).sum();
+        }
+        return Ok(forces);
+    }
+    for &(l, weight) in stiffness_rule::<N>(straight) {
+        let (gradients, determinant) = jacobian(nodes, l)?;
+        let gradient = u.iter().zip(&gradients).fold(Matrix2::zeros(), |sum, (u, g)| sum + u * g.transpose());
+        let [xx, yy, xy, _] = law.stress(&Strain { gradient, hoop: 0.0 }).map(|stress| 0.5 * weight * determinant * stress);
+        for (force, g) in forces.iter_mut().zip(&gradients) {
+            *force += Point::new(xx * g.x + xy * g.y, xy * g.x + yy * g.y);
+        }
+    }
+    Ok(forces)
+}
+
+/// Product of a block with a vector.
+pub fn times(block: &Block, v: &Point) -> Point {
+    Point::new(block[0][0] * v.x + block[0][1] * v.y, block[1][0] * v.x + block[1][1] * v.y)
+}
+
 /// Strain of the nodal displacements `u` at barycentric coordinates `l`, and the Jacobian determinant there.
 ///
 /// # Errors
@@ -186,6 +220,30 @@ mod tests {
         for motion in [|_: Point| Point::new(1.0, 0.0), |_: Point| Point::new(0.0, 1.0), |x: Point| Point::new(-x.y, x.x)] {
             assert!(energy(&k, &nodes.map(motion)).abs() < 1e-14 * scale);
         }
+    }
+
+    #[test]
+    fn internal_forces_are_the_product_of_the_stiffness_with_the_displacement() {
+        fn check<const N: usize>(nodes: [Point; N], straight: bool) {
+            for plane in [Plane::Strain, Plane::Stress, Plane::Revolution] {
+                let law = PlaneLaw::new(2.0, 0.3, plane);
+                let u: [Point; N] = std::array::from_fn(|a| Point::new((2.0 * a as f64).sin(), (a as f64).cos()));
+                let k = stiffness(&nodes, &law, straight).expect("a good triangle");
+                for (force, row) in internal_forces(&nodes, &u, &law, straight).expect("a good triangle").iter().zip(&k) {
+                    let product: Point = row.iter().zip(&u).map(|(block, u)| times(block, u)).sum();
+                    assert!((force - product).norm() < 1e-13 * k[0][0][0][0].abs(), "{plane:?}, {N} nodes");
+                }
+            }
+        }
+        let corners = [Point::new(0.0, 0.1), Point::new(1.2, 0.0), Point::new(0.3, 0.9)];
+        check(corners, true);
+        check(
+            std::array::from_fn::<Point, 6, _>(
+                |a| if a < 3 { corners[a] } else { 0.5 * (corners[a - 3] + corners[(a - 2) % 3]) },
+            ),
+            true,
+        );
+        check(curved(), false);
     }
 
     #[test]

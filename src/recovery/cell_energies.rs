@@ -1,10 +1,8 @@
 //! Where in the macro triangles the strain energy of a displacement lies.
 
-use crate::body::NodePositions;
 use crate::discretisation::{Discretisation, Field, SystemError, agreed};
 use crate::element::{BadJacobian, PlaneLaw, by_order, energies};
-use crate::geometry::Point;
-use crate::mesh::{Cells, lattice};
+use crate::mesh::Cells;
 use crate::petsc::Session;
 
 /// Share of the energy of a triangle that lies in its middle quarter, if it lies evenly.
@@ -30,22 +28,19 @@ fn in_triangle<const N: usize>(
     triangle: usize,
     law: &PlaneLaw,
 ) -> Result<Cells, BadJacobian> {
-    let (mesh, level) = (&problem.scene.mesh, problem.finest().numbering.level);
+    let intervals = problem.finest().numbering.level.intervals as f64;
     let mut cells = Cells::default();
-    let all = NodePositions::new(mesh, triangle, level);
-    for small in lattice::triangles(level.intervals, level.order) {
-        let nodes = small.nodes::<N>();
-        let corner = |k: usize| [nodes[k].0, nodes[k].1].map(|at| at as f64 / level.intervals as f64);
-        let corners = [corner(0), corner(1), corner(2)];
+    problem.each_element::<N, _>(triangle, |element| {
+        let corners = element.small.nodes::<3>().map(|(i, j)| [i, j].map(|at| at as f64 / intervals));
         let place = |l: [f64; 3]| {
             let [x, y] = [0, 1].map(|axis| (0..3).map(|k| l[k] * corners[k][axis]).sum::<f64>());
             [1.0 - x - y, x, y]
         };
-        let (x, moved): (_, [Point; N]) = (all.of(&nodes), u.of_triangle(problem, triangle, &small));
-        for (l, energy) in energies(&x, &moved, law)? {
+        for (l, energy) in energies(&element.x, &u.on(element), law)? {
             cells.add(place(l), (1.0 - MIDDLE) * energy);
             cells.add(place([1.0 / 3.0; 3]), MIDDLE * energy);
         }
-    }
+        Ok(())
+    })?;
     Ok(cells)
 }

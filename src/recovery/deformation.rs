@@ -1,10 +1,9 @@
 //! How far the bodies are strained and turned: whether a theory of small strains and rotations holds.
 
-use crate::body::positions;
 use crate::discretisation::{Discretisation, Field, SystemError, agreed};
-use crate::element::{Heat, Plane, PlaneLaw, Strain, by_order, jacobian, place_of, strain};
+use crate::element::{Heat, Plane, PlaneLaw, by_order, place_of, strain};
 use crate::geometry::Point;
-use crate::mesh::{MacroMesh, MacroTriangle, lattice};
+use crate::mesh::{MacroMesh, MacroTriangle};
 use crate::petsc::Session;
 use nalgebra::Matrix2;
 
@@ -118,10 +117,7 @@ fn with_neighbours(mesh: &MacroMesh, sums: &[[f64; 2]]) -> Vec<[f64; 2]> {
     wider
 }
 
-/// Gradients of the shape functions in the middle of a triangle, and its Jacobian determinant.
-type Shape<const N: usize> = ([Point; N], f64);
-
-/// The integrals over a macro triangle: one point for each triangle. Where all are alike, the first of each kind stands for them.
+/// The integrals over a macro triangle: one point for each element.
 fn integrals<const N: usize>(
     problem: &Discretisation,
     u: &Field<2>,
@@ -129,31 +125,18 @@ fn integrals<const N: usize>(
     (law, heat): (&PlaneLaw, Option<&Heat>),
 ) -> Result<TriangleIntegrals, SystemError> {
     const MIDDLE: [f64; 3] = [1.0 / 3.0; 3];
-    let (mesh, level) = (&problem.scene.mesh, problem.finest().numbering.level);
-    let numbers = problem.finest().numbering.triangle(mesh, triangle);
-    let is_even = mesh.is_even(triangle, level);
-    let mut alike: [Option<Shape<N>>; 2] = [None; 2];
     let mut sums = TriangleIntegrals::default();
-    for small in lattice::triangles(level.intervals, level.order) {
-        let nodes = small.nodes::<N>();
-        let known = &mut alike[usize::from(small.down)];
-        let (gradients, area) = match *known {
-            Some(shape) if is_even => shape,
-            _ => *known.insert(jacobian(&positions(mesh, triangle, level, &nodes), MIDDLE)?),
-        };
-        let moved = nodes.map(|(i, j)| u.point(numbers.node(i, j)));
-        let gradient = moved.iter().zip(&gradients).fold(Matrix2::zeros(), |sum, (u, gradient)| sum + u * gradient.transpose());
-        // Where it matters where a triangle lies, not its shape alone.
-        let place = (law.plane == Plane::Revolution || heat.is_some()).then(|| positions(mesh, triangle, level, &nodes));
-        let hoop = place.as_ref().map_or(Ok(0.0), |x| strain(x, &moved, MIDDLE, law).map(|(strain, _)| strain.hoop))?;
+    problem.each_element::<N, _>(triangle, |element| {
+        let (found, area) = strain(&element.x, &u.on(element), MIDDLE, law)?;
+        let (gradient, middle) = (&found.gradient, place_of(&element.x, MIDDLE));
         let rotation = 0.5 * (gradient[(1, 0)] - gradient[(0, 1)]);
-        let middle = place.map_or(Point::zeros(), |x| place_of(&x, MIDDLE));
-        let [xx, yy, ..] = law.heated(law.stress(&Strain { gradient, hoop }), heat, middle);
-        let strain = principal(&gradient).max(hoop.abs());
-        let growth = 0.5 * (rotation * rotation - strain * strain).max(0.0) * law.plane.width(middle);
-        let values = [strain, 1.0, rotation, growth * (xx + yy)];
+        let [xx, yy, ..] = law.heated(law.stress(&found), heat, middle);
+        let size = principal(gradient).max(found.hoop.abs());
+        let growth = 0.5 * (rotation * rotation - size * size).max(0.0) * law.plane.width(middle);
+        let values = [size, 1.0, rotation, growth * (xx + yy)];
         sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);
-    }
+        Ok::<(), SystemError>(())
+    })?;
     Ok(sums)
 }
 

@@ -1,10 +1,9 @@
 //! Error of the stress in the energy norm, against formulas.
 
-use crate::body::NodePositions;
 use crate::discretisation::{Discretisation, Field, SystemError, agreed};
 use crate::element::{Heat, PlaneLaw, SIX_POINTS, by_order, six_points, strain};
 use crate::geometry::Formula;
-use crate::mesh::{Region, lattice};
+use crate::mesh::Region;
 use crate::recovery::evaluation::Evaluation;
 
 impl Evaluation<'_> {
@@ -38,21 +37,18 @@ fn add<const N: usize>(
     exact: &[Formula; 4],
     sums: &mut [f64; 2],
 ) -> Result<(), SystemError> {
-    let level = problem.finest().numbering.level;
-    let all = NodePositions::new(&problem.scene.mesh, triangle, level);
-    for small in lattice::triangles(level.intervals, level.order) {
-        let x = all.of(&small.nodes::<N>());
-        let u = u.of_triangle::<N>(problem, triangle, &small);
+    problem.each_element::<N, _>(triangle, |element| {
+        let (x, u) = (&element.x, u.on(element));
         // Also for P1: the exact stress is no polynomial.
-        let points = six_points(&x);
+        let points = six_points(x);
         let wanted = exact.each_ref().map(|formula| formula.values(&points));
         for (k, &(l, weight)) in SIX_POINTS.iter().enumerate() {
-            let (strain, determinant) = strain(&x, &u, l, law)?;
+            let (strain, determinant) = strain(x, &u, l, law)?;
             let (found, wanted) = (law.heated(law.stress(&strain), heat, points[k]), wanted.map(|values| values[k]));
             let volume = 0.5 * weight * determinant * law.plane.width(points[k]);
             sums[0] += volume * law.compliance(std::array::from_fn(|c| found[c] - wanted[c]));
             sums[1] += volume * law.compliance(wanted);
         }
-    }
-    Ok(())
+        Ok(())
+    })
 }

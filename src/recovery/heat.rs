@@ -3,10 +3,9 @@
 //! The strain energy is that of the elastic part of the strain, `½∫(ε - αϑI):C:(ε - αϑI) = ½ uᵀKu - f_ϑ·u + ½∫ d p α ϑ`, with the nodal
 //! forces `f_ϑ` of the pressure `p` that keeps a part from growing and the number `d` of directions in which it would.
 
-use crate::body::{NodePositions, heat_forces};
+use crate::body::heat_forces;
 use crate::discretisation::{Discretisation, Field, SystemError, agreed};
 use crate::element::{BadJacobian, Heat, PlaneLaw, SIX_POINTS, by_order, jacobian, six_points};
-use crate::mesh::lattice;
 use crate::petsc::Session;
 
 /// What heat does in a part of a body (energies per thickness, or of the whole body of revolution).
@@ -50,15 +49,13 @@ fn kept_energy<const N: usize>(
     law: &PlaneLaw,
     heat: &Heat,
 ) -> Result<f64, BadJacobian> {
-    let (mesh, level) = (&problem.scene.mesh, problem.finest().numbering.level);
-    let all = NodePositions::new(mesh, triangle, level);
     let mut sum = 0.0;
-    for small in lattice::triangles(level.intervals, level.order) {
-        let nodes = all.of(&small.nodes::<N>());
-        for (&(l, weight), x) in SIX_POINTS.iter().zip(six_points(&nodes)) {
-            let volume = 0.5 * weight * jacobian(&nodes, l)?.1 * law.plane.width(x);
+    problem.each_element::<N, _>(triangle, |element| {
+        for (&(l, weight), x) in SIX_POINTS.iter().zip(six_points(&element.x)) {
+            let volume = 0.5 * weight * jacobian(&element.x, l)?.1 * law.plane.width(x);
             sum += 0.5 * volume * law.growing() * law.pressure_by_growth() * heat.growth(x).powi(2);
         }
-    }
+        Ok(())
+    })?;
     Ok(sum)
 }

@@ -1,9 +1,8 @@
 //! Stress at the nodes.
 
-use crate::body::NodePositions;
 use crate::discretisation::{Discretisation, Field, SystemError, agreed};
 use crate::element::{Heat, PlaneLaw, by_order, nodal_stresses};
-use crate::mesh::{MacroMesh, lattice};
+use crate::mesh::MacroMesh;
 use crate::petsc::Session;
 
 /// Stress at the nodes of each part of the bodies: where two parts meet it has two values, for some of its components jump.
@@ -70,20 +69,14 @@ fn add<const N: usize>(
     (law, heat): (&PlaneLaw, Option<&Heat>),
     sums: &mut Field<5>,
 ) -> Result<(), SystemError> {
-    let level = problem.finest().numbering.level;
-    let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
-    let all = NodePositions::new(&problem.scene.mesh, triangle, level);
-    for small in lattice::triangles(level.intervals, level.order) {
-        let nodes = small.nodes::<N>();
-        let x = all.of(&nodes);
-        let u = u.of_triangle::<N>(problem, triangle, &small);
-        for (&(i, j), (s, area)) in nodes.iter().zip(nodal_stresses(&x, &u, law, heat)?) {
-            let sum = sums.at_mut(numbers.node(i, j));
+    problem.each_element::<N, _>(triangle, |element| {
+        for (&node, (s, area)) in element.nodes.iter().zip(nodal_stresses(&element.x, &u.on(element), law, heat)?) {
+            let sum = sums.at_mut(node);
             for k in 0..4 {
                 sum[k] += area * s[k];
             }
             sum[4] += area;
         }
-    }
-    Ok(())
+        Ok(())
+    })
 }

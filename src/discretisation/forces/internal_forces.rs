@@ -1,10 +1,10 @@
 //! What a displacement does inside the bodies: the forces `K u` of their stresses at the nodes, and strain energies.
 
-use crate::body::{MacroStiffness, one_stiffness, one_triangle};
+use crate::body::MacroStiffness;
 use crate::discretisation::error::{SystemError, agreed};
 use crate::discretisation::field::Field;
 use crate::discretisation::levels::Discretisation;
-use crate::element::{PlaneLaw, by_order};
+use crate::element::{self, PlaneLaw, by_order, times};
 use crate::geometry::Point;
 use crate::mesh::lattice;
 use crate::petsc::Session;
@@ -65,18 +65,13 @@ fn each_force(
     let numbers = numbering.triangle(mesh, triangle);
     let local: Vec<Point> = lattice::nodes(n).map(|(i, j)| u.point(numbers.node(i, j))).collect();
     for (at, (i, j)) in lattice::nodes(n).enumerate() {
-        let mut force = Point::zeros();
-        for ((k, l), block) in stiffness.row(i, j) {
-            let u = local[lattice::index(n, k, l)];
-            force.x += block[0][0] * u.x + block[0][1] * u.y;
-            force.y += block[1][0] * u.x + block[1][1] * u.y;
-        }
+        let force = stiffness.row(i, j).map(|((k, l), block)| times(block, &local[lattice::index(n, k, l)])).sum();
         take(numbers.node(i, j), force, local[at]);
     }
     Ok(())
 }
 
-/// Shows each node of a macro triangle that is a single triangle: number, `K u` of the triangle there, displacement.
+/// The same of a macro triangle that is a single triangle.
 fn each_force_of_one<const N: usize>(
     problem: &Discretisation,
     law: &PlaneLaw,
@@ -84,17 +79,11 @@ fn each_force_of_one<const N: usize>(
     triangle: usize,
     mut take: impl FnMut(usize, Point, Point),
 ) -> Result<(), SystemError> {
-    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
-    let numbers = numbering.triangle(mesh, triangle);
-    let nodes = one_triangle::<N>(numbering.level).map(|(i, j)| numbers.node(i, j));
-    let local = nodes.map(|node| u.point(node));
-    for (a, row) in one_stiffness::<N>(mesh, triangle, numbering.level, law)?.iter().enumerate() {
-        let mut force = Point::zeros();
-        for (block, u) in row.iter().zip(&local) {
-            force.x += block[0][0] * u.x + block[0][1] * u.y;
-            force.y += block[1][0] * u.x + block[1][1] * u.y;
-        }
-        take(nodes[a], force, local[a]);
-    }
-    Ok(())
+    let is_straight = !problem.scene.mesh.is_curved(triangle);
+    problem.each_element::<N, _>(triangle, |element| {
+        let local = u.on(element);
+        let forces = element::internal_forces(&element.x, &local, law, is_straight)?;
+        (0..N).for_each(|a| take(element.nodes[a], forces[a], local[a]));
+        Ok(())
+    })
 }

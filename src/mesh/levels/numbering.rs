@@ -130,6 +130,12 @@ pub struct TriangleNumbers {
 }
 
 impl TriangleNumbers {
+    /// Numbers of the nodes of a macro triangle that is a single triangle: its corners, then its midsides.
+    #[inline]
+    pub fn of_one<const N: usize>(&self) -> [usize; N] {
+        std::array::from_fn(|a| if a < 3 { self.corners[a] } else { self.sides[a - 3] })
+    }
+
     /// Number of lattice node `(i, j)`.
     #[inline]
     pub fn node(&self, i: usize, j: usize) -> usize {
@@ -251,6 +257,20 @@ mod tests {
                 assert_eq!(seen.is_empty(), partition.triangles_of(rank).is_empty());
             }
         });
+    }
+
+    #[test]
+    fn a_macro_triangle_that_is_one_triangle_has_its_corners_and_its_midsides() {
+        let mesh = mesh();
+        for (order, intervals) in [(Order::P1, 1), (Order::P2, 2)] {
+            let numbering = Numbering::new(Level { intervals, order }, &deal(&mesh, 3, 2));
+            assert!(numbering.level.is_one_triangle());
+            for triangle in 0..mesh.triangles.len() {
+                let numbers = numbering.triangle(&mesh, triangle);
+                let all = lattice::Triangle::at(0, 0, order, false).nodes::<6>().map(|(i, j)| numbers.node(i, j));
+                assert_eq!(numbers.of_one::<6>()[..order.nodes()], all[..order.nodes()]);
+            }
+        }
     }
 
     #[test]

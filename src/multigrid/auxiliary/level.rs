@@ -4,7 +4,8 @@ use super::tree::{Tree, Vertex};
 use crate::element::Block;
 use crate::geometry::Point;
 use crate::mesh::middle_of_group;
-use std::collections::{BTreeMap, HashMap};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// A component of a coarse node is left out if the squares of its values at all finer nodes add up to no more than this.
@@ -84,13 +85,16 @@ impl Coarsening {
     /// From nodes to the functions of the trees, one for each body. A function belongs to the rank of the first node that
     /// it is not zero at, and has its number in the order of these. Nodes that do not move at all take nothing over.
     pub fn new(fine: &LevelNodes, trees: &[Tree]) -> Self {
-        let mut numbers: HashMap<(usize, Vertex), u32> = HashMap::new();
+        let mut numbers: FxHashMap<(usize, Vertex), u32> = FxHashMap::default();
         let mut coarse = LevelNodes { all: Vec::new(), first: vec![0] };
         let (mut columns, mut all_values, mut offsets) = (Vec::new(), Vec::with_capacity(4 * fine.all.len()), vec![0]);
+        let mut values = Vec::new();
         for ends in fine.first.windows(2) {
             for node in &fine.all[ends[0]..ends[1]] {
-                let values = if node.is_free == [false; 2] { Vec::new() } else { trees[node.body].function_values(node.at) };
-                for (vertex, value) in values {
+                if node.is_free != [false; 2] {
+                    trees[node.body].function_values(node.at, &mut values);
+                }
+                for (vertex, value) in values.drain(..) {
                     let number = *numbers.entry((node.body, vertex)).or_insert_with(|| {
                         let at = vertex.map(f64::from);
                         coarse.all.push(LevelNode { body: node.body, at, axes: AXES, is_free: [true; 2] });

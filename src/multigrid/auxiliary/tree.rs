@@ -89,20 +89,18 @@ impl Tree {
         (tree.cells.len() < self.cells.len()).then_some(tree)
     }
 
-    /// Values of the functions that are not zero at a point (units); they sum to 1.
-    pub fn function_values(&self, at: [f64; 2]) -> Vec<(Vertex, f64)> {
+    /// Adds the values of the functions that are not zero at a point (units) to a list; they sum to 1.
+    pub fn function_values(&self, at: [f64; 2], values: &mut Vec<(Vertex, f64)>) {
         let cell = self.cells[self.find(at, self.roots.depth)];
         let width = self.width(cell.depth);
         let [s, t] = [0, 1].map(|k| (at[k] / f64::from(width) - f64::from(cell.at[k])).clamp(0.0, 1.0));
         let corners = [([0, 0], (1.0 - s) * (1.0 - t)), ([1, 0], s * (1.0 - t)), ([0, 1], (1.0 - s) * t), ([1, 1], s * t)];
-        let mut values = Vec::with_capacity(4);
         for (corner, value) in corners.into_iter().filter(|(_, value)| *value > ROUNDING) {
             match self.masters(cell, corner) {
-                Some(ends) => ends.into_iter().for_each(|end| add(&mut values, end, 0.5 * value)),
-                None => add(&mut values, [0, 1].map(|k| (cell.at[k] + corner[k]) * width), value),
+                Some(ends) => ends.into_iter().for_each(|end| add(values, end, 0.5 * value)),
+                None => add(values, [0, 1].map(|k| (cell.at[k] + corner[k]) * width), value),
             }
         }
-        values
     }
 
     /// Ends of the edge in whose middle the corner of a leaf hangs, if it does.
@@ -269,6 +267,12 @@ mod tests {
 
     const ROOTS: Roots = Roots { count: [3, 2], depth: 7 };
 
+    fn function_values(tree: &Tree, at: [f64; 2]) -> Vec<(Vertex, f64)> {
+        let mut values = Vec::new();
+        tree.function_values(at, &mut values);
+        values
+    }
+
     /// Points all over the grid, in no order.
     fn points() -> impl Iterator<Item = [f64; 2]> {
         let fraction = |k: f64| (k * 0.618_033_988_749_895).fract();
@@ -319,7 +323,7 @@ mod tests {
     fn linear_functions_are_reproduced() {
         for tree in all() {
             for at in points() {
-                let values = tree.function_values(at);
+                let values = function_values(&tree, at);
                 let sum = |f: &dyn Fn(Vertex) -> f64| values.iter().map(|(vertex, value)| value * f(*vertex)).sum::<f64>();
                 assert!((sum(&|_| 1.0) - 1.0).abs() < 1e-11);
                 assert!((0..2).all(|k| (sum(&|vertex| f64::from(vertex[k])) - at[k]).abs() < 1e-8));
@@ -331,9 +335,10 @@ mod tests {
     #[test]
     fn functions_are_one_at_their_own_vertex_alone() {
         for tree in all() {
-            let vertices: HashSet<Vertex> = points().flat_map(|at| tree.function_values(at)).map(|(vertex, _)| vertex).collect();
+            let vertices: HashSet<Vertex> =
+                points().flat_map(|at| function_values(&tree, at)).map(|(vertex, _)| vertex).collect();
             for vertex in vertices {
-                assert_eq!(tree.function_values(vertex.map(f64::from)), [(vertex, 1.0)]);
+                assert_eq!(function_values(&tree, vertex.map(f64::from)), [(vertex, 1.0)]);
             }
         }
     }
@@ -345,12 +350,12 @@ mod tests {
         for pair in trees.windows(2) {
             for at in points() {
                 let mut sums: HashMap<Vertex, f64> = HashMap::new();
-                for (vertex, value) in pair[0].function_values(at) {
-                    for (coarse, weight) in pair[1].function_values(vertex.map(f64::from)) {
+                for (vertex, value) in function_values(&pair[0], at) {
+                    for (coarse, weight) in function_values(&pair[1], vertex.map(f64::from)) {
                         *sums.entry(coarse).or_insert(0.0) += value * weight;
                     }
                 }
-                pair[1].function_values(at).into_iter().for_each(|(coarse, value)| *sums.entry(coarse).or_insert(0.0) -= value);
+                function_values(&pair[1], at).into_iter().for_each(|(coarse, value)| *sums.entry(coarse).or_insert(0.0) -= value);
                 assert!(sums.values().all(|rest| rest.abs() < 1e-10), "{at:?}");
             }
         }

@@ -5,7 +5,7 @@ use super::couplings::Couplings;
 use super::even_triangles::EvenTriangles;
 use super::pattern::RowColumns;
 use super::stored_rows::{BlockColumn, StoredRows, place};
-use crate::body::{Constraint, MacroStiffness, neighbours, one_stiffness, one_triangle};
+use crate::body::{Constraint, MacroStiffness, neighbours, one_stiffness};
 use crate::discretisation::{Scene, Space};
 use crate::element::{BadJacobian, Block, Order, PlaneLaw};
 use crate::geometry::Point;
@@ -116,23 +116,24 @@ impl<'a> Assembly<'a> {
             let place = |row: usize| place(&self.nodes, row - own.start).expect("nodes of contact lie on sides");
             contact.range(own.clone()).map(move |(&row, others)| (place(row), others))
         };
-        let mut counts = vec![0; self.nodes.len()];
+        let is_one = level.is_one_triangle();
+        let mut counts = vec![u32::from(is_one); self.nodes.len()];
         for part in &self.parts {
-            match level.order {
-                Order::P1 if level.is_one_triangle() => self.each_row_of_one::<3>(part, |k, _, _| counts[k] += 3),
-                Order::P2 if level.is_one_triangle() => self.each_row_of_one::<6>(part, |k, _, _| counts[k] += 6),
-                _ => self.each_row(part, |k, (i, j)| counts[k] += coupled(level, i, j).count() as u32),
+            match is_one {
+                true => self.each_coupling_of_one(part, |k, _| counts[k] += 1),
+                false => self.each_row(part, |k, (i, j)| counts[k] += coupled(level, i, j).count() as u32),
             }
         }
         of_contact().for_each(|(k, others)| counts[k] += others.len() as u32);
         let mut couplings = RowColumns::new(&counts);
-        let mut push_all = |k: usize, nodes: &[usize]| nodes.iter().for_each(|&node| couplings.push(k, node));
+        if is_one {
+            self.nodes.iter().enumerate().for_each(|(k, &node)| couplings.push(k, own.start + node as usize));
+        }
         for part in &self.parts {
-            match level.order {
-                Order::P1 if level.is_one_triangle() => self.each_row_of_one::<3>(part, |k, _, nodes| push_all(k, nodes)),
-                Order::P2 if level.is_one_triangle() => self.each_row_of_one::<6>(part, |k, _, nodes| push_all(k, nodes)),
-                _ => self.each_row(part, |k, (i, j)| {
-                    coupled(level, i, j).for_each(|(a, b)| push_all(k, &[part.numbers.node(a, b)]));
+            match is_one {
+                true => self.each_coupling_of_one(part, |k, node| couplings.push(k, node)),
+                false => self.each_row(part, |k, (i, j)| {
+                    coupled(level, i, j).for_each(|(a, b)| couplings.push(k, part.numbers.node(a, b)));
                 }),
             }
         }
@@ -179,12 +180,41 @@ impl<'a> Assembly<'a> {
         if part.is_own && !part.is_whole { all(n).for_each(&mut show) } else { sides(n).for_each(&mut show) }
     }
 
+    /// Shows the couplings of different nodes in a macro triangle that is a single triangle: the place of the row, and the other node.
+    /// Those along an edge are shown by the one of its triangles that it runs along, so that all are shown once.
+    #[inline]
+    fn each_coupling_of_one(&self, part: &AssemblyPart, mut show: impl FnMut(usize, usize)) {
+        let own = &self.space.own;
+        let mut both = |a: usize, b: usize| {
+            for (row, other) in [(a, b), (b, a)].into_iter().filter(|(row, _)| own.contains(row)) {
+                show(place(&self.nodes, row - own.start).expect("a stored row"), other);
+            }
+        };
+        let forward = self.scene.mesh.triangles[part.triangle].forward;
+        let is_quadratic = self.space.numbering.level.order == Order::P2;
+        let [a, b, c, ab, bc, ca] = part.numbers.of_one::<6>();
+        for (is_forward, [a, b, ab, bc, opposite]) in
+            forward.into_iter().zip([[a, b, ab, bc, c], [b, c, bc, ca, a], [c, a, ca, ab, b]])
+        {
+            if is_forward {
+                both(a, b);
+            }
+            if is_quadratic {
+                if is_forward {
+                    both(a, ab);
+                    both(b, ab);
+                }
+                both(opposite, ab);
+                both(ab, bc);
+            }
+        }
+    }
+
     /// The same of a macro triangle that is a single triangle, all of whose nodes are coupled: the place of each row, which of the
     /// nodes it is of, and the numbers of all nodes.
     #[inline]
     fn each_row_of_one<const N: usize>(&self, part: &AssemblyPart, mut show: impl FnMut(usize, usize, &[usize; N])) {
-        let (level, own) = (self.space.numbering.level, &self.space.own);
-        let nodes = one_triangle::<N>(level).map(|(i, j)| part.numbers.node(i, j));
+        let (nodes, own) = (part.numbers.of_one::<N>(), &self.space.own);
         for (a, row) in nodes.iter().enumerate().filter(|(_, row)| own.contains(row)) {
             show(place(&self.nodes, row - own.start).expect("a stored row"), a, &nodes);
         }

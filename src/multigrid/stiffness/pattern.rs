@@ -86,7 +86,10 @@ impl RowColumns {
             starts.push(columns.len() as u32);
         }
         let firsts = starts[..starts.len() - 1].to_vec();
-        Part { starts, firsts, blocks: vec![[[0.0; 2]; 2]; columns.len()], columns }
+        // Pages that the system has cleared are copied when they are first added to: written now, they are touched once.
+        let mut blocks = Vec::with_capacity(columns.len());
+        blocks.resize(columns.len(), [[0.0; 2]; 2]);
+        Part { starts, firsts, blocks, columns }
     }
 }
 

@@ -3,8 +3,7 @@
 use super::couplings::inverse;
 use crate::element::Block;
 use crate::petsc::Index;
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
+use rustc_hash::FxHashMap;
 use std::ops::Range;
 
 /// Columns of a row in which a place is counted, not searched: a P2 corner where six triangles meet couples to 19 nodes.
@@ -121,7 +120,7 @@ impl Part {
 impl Part {
     /// Shares the blocks of rows that have the same ones, but for those that are to keep their own.
     fn share(&mut self, keeps: &[bool]) {
-        let mut known: HashMap<u64, u32, Fingerprints> = HashMap::default();
+        let mut known: FxHashMap<u64, u32> = FxHashMap::default();
         let mut blocks: Vec<Block> = Vec::new();
         for (k, keeps) in keeps.iter().enumerate() {
             let row = &self.blocks[self.firsts[k] as usize..][..self.row(k).len()];
@@ -136,27 +135,6 @@ impl Part {
         }
         blocks.shrink_to_fit();
         self.blocks = blocks;
-    }
-}
-
-/// Fingerprints need no more hashing.
-type Fingerprints = BuildHasherDefault<FingerprintHasher>;
-
-/// A fingerprint as its own hash.
-#[derive(Default)]
-struct FingerprintHasher(u64);
-
-impl Hasher for FingerprintHasher {
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&byte| self.0 = self.0 << 8 | u64::from(byte));
-    }
-
-    fn write_u64(&mut self, fingerprint: u64) {
-        self.0 = fingerprint;
-    }
-
-    fn finish(&self) -> u64 {
-        self.0
     }
 }
 
@@ -208,7 +186,7 @@ impl StoredRows {
         contact.filter_map(|node| self.place(node)).for_each(|k| keeps[k] = true);
         self.near.share(&keeps);
         self.far.share(&keeps);
-        let mut known: HashMap<u64, u32, Fingerprints> = HashMap::default();
+        let mut known: FxHashMap<u64, u32> = FxHashMap::default();
         let mut inverses: Vec<Block> = Vec::new();
         for (k, keeps) in keeps.iter().enumerate() {
             let own = self.inverses[self.inverse_of[k] as usize];

@@ -1,0 +1,50 @@
+//! The elements of a macro triangle on the finest level: the small triangles of its lattice.
+
+use crate::body::{NodePositions, positions_of_one};
+use crate::discretisation::field::Field;
+use crate::discretisation::levels::Discretisation;
+use crate::geometry::Point;
+use crate::mesh::lattice::{self, Triangle};
+
+/// An element with `N` nodes: its corners counter-clockwise, then its midsides.
+pub struct Element<const N: usize> {
+    /// Which of the lattice it is.
+    pub small: Triangle,
+    /// Numbers of its nodes.
+    pub nodes: [usize; N],
+    /// Where they lie, undeformed (length).
+    pub x: [Point; N],
+}
+
+impl Discretisation {
+    /// Shows all elements of a macro triangle, in the order of the lattice.
+    ///
+    /// # Errors
+    /// The first one of `show`.
+    #[inline]
+    pub fn each_element<const N: usize, E>(
+        &self,
+        triangle: usize,
+        mut show: impl FnMut(&Element<N>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let (mesh, numbering) = (&self.scene.mesh, &self.finest().numbering);
+        let (level, numbers) = (numbering.level, numbering.triangle(mesh, triangle));
+        if level.is_one_triangle() {
+            let small = Triangle::at(0, 0, level.order, false);
+            return show(&Element { small, nodes: numbers.of_one(), x: positions_of_one(mesh, triangle, level) });
+        }
+        let all = NodePositions::new(mesh, triangle, level);
+        lattice::triangles(level.intervals, level.order).try_for_each(|small| {
+            let at = small.nodes::<N>();
+            show(&Element { small, nodes: at.map(|(i, j)| numbers.node(i, j)), x: all.of(&at) })
+        })
+    }
+}
+
+impl Field<2> {
+    /// Displacements at the nodes of an element.
+    #[inline]
+    pub fn on<const N: usize>(&self, element: &Element<N>) -> [Point; N] {
+        element.nodes.map(|node| self.point(node))
+    }
+}
