@@ -131,8 +131,18 @@ impl Zone {
 
     /// Largest pressure (stress).
     pub fn peak(&self, multipliers: &Multipliers, lambda: &[f64]) -> f64 {
-        let ends = self.segments.clone().flat_map(|k| [0.0, 1.0].map(|z| multipliers.value(lambda, k, z)));
-        ends.fold(f64::NEG_INFINITY, f64::max)
+        self.values_at_ends(multipliers, lambda).map(|(value, ..)| value).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Whether the largest pressure lies beside an end of the boundary.
+    pub fn peaks_at_end(&self, boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64]) -> bool {
+        let highest = self.values_at_ends(multipliers, lambda).max_by(|a, b| a.0.total_cmp(&b.0));
+        highest.is_some_and(|(_, segment, end)| !self.has_inside(boundary.segment_arcs(segment)[end]))
+    }
+
+    /// Values of λ (stress) at both ends of each segment: value, segment, end.
+    fn values_at_ends(&self, multipliers: &Multipliers, lambda: &[f64]) -> impl Iterator<Item = (f64, usize, usize)> {
+        self.segments.clone().flat_map(|k| [0, 1].map(|end| (multipliers.value(lambda, k, end as f64), k, end)))
     }
 }
 

@@ -84,6 +84,11 @@ impl<'a> ContactPressure<'a> {
         zone.peak(&self.contact.multipliers, self.values)
     }
 
+    /// Whether the largest λ of one zone lies beside an end of Γ_C.
+    pub fn peaks_at_end(&self, zone: &Zone) -> bool {
+        zone.peaks_at_end(&self.contact.boundary, &self.contact.multipliers, self.values)
+    }
+
     /// The largest value of a smooth pressure with the means of λ; nothing where λ is largest on a zone of less than three
     /// segments.
     pub fn recovered_peak(&self) -> Option<f64> {

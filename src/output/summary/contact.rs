@@ -126,6 +126,8 @@ pub struct ZoneSummary {
     pub force: Option<f64>,
     /// Estimated relative error of its largest pressure; null where that is singular.
     pub peak: Option<f64>,
+    /// Whether its largest pressure lies beside an end of the contact boundary, in the tenth that `whole` leaves out.
+    pub peak_at_end: Option<bool>,
     /// Whether λ grows without bound towards an end of the contact boundary, as far as can be seen.
     pub singular: Option<bool>,
     /// Whether it lies at an end of the contact boundary where one body has a corner and the other goes on.

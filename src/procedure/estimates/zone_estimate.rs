@@ -183,7 +183,7 @@ fn peak(error: f64, stress: Option<f64>, errors: &ZoneErrors, last: Option<&Zone
         geometric_mean(errors.stress_at_peak).map(|stress| share * stress),
         last.map(|last| PEAK_BY_ONE * last.peak),
     ];
-    signs.into_iter().flatten().filter(|sign| sign.is_finite()).reduce(f64::max)
+    signs.into_iter().flatten().filter(|sign| sign.is_finite()).reduce(f64::max).map(|sign| MARGIN * sign)
 }
 
 /// Of both bodies' distances: the finer body follows λ whatever it is, the coarser one is off by its own error.

@@ -90,6 +90,7 @@ impl<'a> Zones<'a> {
                 worst: found.worst,
                 force: found.force,
                 peak: peak_error(found.peak.filter(tells), singular),
+                peak_at_end: Some(pressure.peaks_at_end(zone)),
                 singular: Some(singular),
                 corner: Some((0..2).any(|end| pressure.ends_at_a_corner(&problem.scene.mesh, zone, end))),
             }

@@ -57,6 +57,10 @@ pub static STEPS_ALL_OVER: Limit = most((0.12, two, Finer, ALL_OVER_CAUSE, ALL_O
 pub static PEAK: Limit = most((0.12, two, Finer, "the largest λ is too inexact",
     "estimated error of the largest λ{place} {value}, at most {limit} wanted"));
 
+/// `zones[].peak` where `peak_at_end`, but for P0: that of `whole`, which leaves the ends of Γ_C out.
+pub static PEAK_AT_END: Limit = most((ALL_OVER.value, two, Finer, "the largest λ is too inexact",
+    "estimated error of the largest λ, at an end of Γ_C{place}, {value}, at most {limit} wanted"));
+
 /// `zones[].force`: the force of a zone.
 pub static ZONE_FORCE: Limit = most((0.08, two, Finer, "the force is too inexact",
     "estimated error of the force{place} {value}, at most {limit} wanted"));

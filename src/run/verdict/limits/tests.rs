@@ -5,7 +5,7 @@ use crate::accuracy::NARROWEST;
 use crate::procedure::MOVES;
 
 /// Every row of the table, with its figure.
-const ROWS: [(&str, &Limit); 25] = [
+const ROWS: [(&str, &Limit); 26] = [
     ("inf_sup", &INF_SUP),
     ("oscillation", &OSCILLATION),
     ("zones[].edges", &EDGES),
@@ -14,6 +14,7 @@ const ROWS: [(&str, &Limit); 25] = [
     ("zones[].whole", &ALL_OVER),
     ("zones[].whole", &STEPS_ALL_OVER),
     ("zones[].peak", &PEAK),
+    ("zones[].peak", &PEAK_AT_END),
     ("zones[].force", &ZONE_FORCE),
     ("missing", &OVERLAP),
     ("unresolved_force", &WITHIN_SEGMENTS),

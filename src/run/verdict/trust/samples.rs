@@ -37,6 +37,7 @@ pub fn zone() -> ZoneSummary {
         worst: Some(0.08),
         force: Some(0.001),
         peak: Some(0.02),
+        peak_at_end: Some(false),
         singular: Some(false),
         corner: Some(false),
     }

@@ -29,6 +29,14 @@ fn a_pressure_is_doubted_by_what_is_far_off() {
     assert!(words(|zone| zone.lambda = Some(0.9)).contains("of λ 0.90"));
     assert!(words(|zone| zone.whole = Some(0.07)).contains("up to the ends of contact 0.07"));
     assert!(words(|zone| zone.peak = Some(0.2)).contains("of the largest λ 0.20"));
+    // What `whole` does not see is judged as strictly.
+    assert_eq!(words(|zone| zone.peak = Some(0.08)), "");
+    let at_end = |zone: &mut ZoneSummary| (zone.peak, zone.peak_at_end) = (Some(0.08), Some(true));
+    assert!(words(at_end).contains("of the largest λ, at an end of Γ_C, 0.08"));
+    let mut steps = zone();
+    at_end(&mut steps);
+    let steps = ContactSummary { zones: vec![steps], multiplier: Some("p0".into()), ..ContactSummary::default() };
+    assert_eq!(zone_doubts(&steps, Some(true)).len(), 0);
     assert!(words_of(vec![zone()], 0.5).contains("overlap"));
     let case = case(&[]);
     let far = |energy, force| {

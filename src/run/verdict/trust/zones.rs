@@ -3,8 +3,8 @@
 use super::told::Unknown;
 use crate::output::summary::{ContactSummary, ZoneSummary};
 use crate::run::verdict::limits::{
-    ALL_OVER, Doubt, EDGES, LEAST_FORCE_SHARE, MIDDLE, NEXT_TO_NOTHING, OVERLAP, OVERLAP_ALONE, PEAK, PROVES, SEGMENTS,
-    STEPS_ALL_OVER, ZONE_FORCE,
+    ALL_OVER, Doubt, EDGES, LEAST_FORCE_SHARE, MIDDLE, NEXT_TO_NOTHING, OVERLAP, OVERLAP_ALONE, PEAK, PEAK_AT_END, PROVES,
+    SEGMENTS, STEPS_ALL_OVER, ZONE_FORCE,
 };
 use crate::run::words::short;
 
@@ -32,8 +32,10 @@ fn doubts_of(zone: &ZoneSummary, contact: &ContactSummary) -> Vec<Doubt> {
     let narrow = EDGES.judge(zone.edges.filter(|_| !proved), &named);
     let narrow = narrow.or_else(|| SEGMENTS.judge(segments.filter(|_| !good), &named));
     let force = zone.force.filter(|_| zone.share.is_some_and(|share| share.abs() >= LEAST_FORCE_SHARE));
-    let all_over = if contact.multiplier.as_deref() == Some("p0") { &STEPS_ALL_OVER } else { &ALL_OVER };
-    let errors = [(&MIDDLE, zone.lambda), (all_over, zone.whole), (&PEAK, zone.peak), (&ZONE_FORCE, force)];
+    let (all_over, at_end) =
+        if contact.multiplier.as_deref() == Some("p0") { (&STEPS_ALL_OVER, &PEAK) } else { (&ALL_OVER, &PEAK_AT_END) };
+    let highest = if zone.peak_at_end == Some(true) { at_end } else { &PEAK };
+    let errors = [(&MIDDLE, zone.lambda), (all_over, zone.whole), (highest, zone.peak), (&ZONE_FORCE, force)];
     narrow.into_iter().chain(errors.into_iter().filter_map(|(limit, error)| limit.judge(error, &named))).collect()
 }
 
