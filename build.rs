@@ -30,8 +30,6 @@ const FUNCTIONS: &[&str] = &[
     "KSP(MonitorSet|GetResidualHistory|SetComputeEigenvalues|ComputeEigenvalues)",
     "PC(Set|Get)ApplicationContext|PC(Destroy|SetType|GetType|GetOptionsPrefix|GetFailedReason)",
     "PCFieldSplit(SetIS|SetType|SetSchurPre|SetSchurFactType|GetSubKSP)",
-    // factor
-    "MatCreateSeqAIJ|MatGetOrdering|MatGetFactor|MatFactorInfoInitialize|MatFactorGetError|MatSolve|MatLUFactor(Symbolic|Numeric)",
     // partition
     "MatCreateMPIAdj|MatPartitioning(Create|Destroy|SetAdjacency|SetType|SetNParts|SetVertexWeights)",
     "MatPartitioning(SetUseEdgeWeights|Apply)",

@@ -1,8 +1,9 @@
 //! What solves on the coarsest level: a factor on the one rank that has all of it, or where there are so many bodies that not even
 //! an auxiliary level is small, a factor that all ranks make.
 
+use super::sparse_factor::SparseFactor;
 use crate::multigrid::stiffness::LatticeOperator;
-use crate::petsc::{Error, Factor, Krylov, Matrix, Result, Session, Vector};
+use crate::petsc::{Error, Krylov, Matrix, Result, Session, Vector};
 use std::rc::Rc;
 
 /// Prefix of the options of the shared factor; `system/solver` has the defaults.
@@ -18,7 +19,7 @@ pub struct Coarsest {
 
 enum CoarsestSolver {
     /// Of a small level, on the rank that has it.
-    Factor(Option<Factor>),
+    Factor(Option<SparseFactor>),
     Shared {
         solver: Krylov,
         rows: Matrix,
@@ -59,7 +60,11 @@ impl Coarsest {
         let (forces, found) = (self.b.as_flattened(), self.x.as_flattened_mut());
         match &mut self.solver {
             CoarsestSolver::Factor(None) => Ok(()),
-            CoarsestSolver::Factor(Some(factor)) => factor.solve(|b| b.copy_from_slice(forces), |x| found.copy_from_slice(x)),
+            CoarsestSolver::Factor(Some(factor)) => {
+                found.copy_from_slice(forces);
+                factor.solve(found);
+                Ok(())
+            }
             CoarsestSolver::Shared { solver, b, x, .. } => {
                 b.values_mut().copy_from_slice(forces);
                 solver.apply(b, x)?;
@@ -71,12 +76,13 @@ impl Coarsest {
 }
 
 /// **Collective**
-fn factor(lattice: &LatticeOperator, session: &Session) -> Result<Option<Factor>> {
+fn factor(lattice: &LatticeOperator, session: &Session) -> Result<Option<SparseFactor>> {
     assert_eq!(lattice.far_count(), 0, "one rank has all nodes of the coarsest level");
-    let has_nodes = lattice.node_count() > 0;
-    let factor = has_nodes.then(|| Factor::new(session, &lattice.rows().borrow().scalar_rows())).transpose();
-    let is_singular = matches!(factor, Err(Error::Singular));
-    if session.any(is_singular) { Err(Error::Singular) } else { factor }
+    let unknowns = 2 * lattice.node_count();
+    let new = || SparseFactor::new(unknowns, &lattice.rows().borrow().lower_entries());
+    let factor = (unknowns > 0).then(new).transpose();
+    let is_singular = session.any(factor.is_err());
+    factor.ok().filter(|_| !is_singular).ok_or(Error::Singular)
 }
 
 /// **Collective**

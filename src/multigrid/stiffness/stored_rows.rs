@@ -2,7 +2,7 @@
 
 use super::couplings::inverse;
 use crate::element::Block;
-use crate::petsc::Index;
+use faer::sparse::Triplet;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
@@ -203,13 +203,17 @@ impl StoredRows {
         self.inverses = inverses;
     }
 
-    /// The rows of single unknowns, if these are those of all nodes: columns and values.
-    pub fn scalar_rows(&self) -> Vec<(Vec<Index>, Vec<f64>)> {
-        let row = |k: usize, a: usize| {
-            let columns = self.near.couplings(k).flat_map(|(column, _)| [2 * column as Index, 2 * column as Index + 1]);
-            (columns.collect(), self.near.couplings(k).flat_map(|(_, block)| block[a]).collect())
-        };
-        (0..self.nodes.len()).flat_map(|k| [row(k, 0), row(k, 1)]).collect()
+    /// Entries on and below the diagonal of the matrix of single unknowns, if these rows are those of all nodes.
+    pub fn lower_entries(&self) -> Vec<Triplet<u32, u32, f64>> {
+        let mut entries = Vec::with_capacity(2 * self.near.columns.len() + 2 * self.nodes.len());
+        for k in 0..self.nodes.len() as u32 {
+            for (column, block) in self.near.couplings(k as usize).take_while(|(column, _)| *column <= k) {
+                for (a, b) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().filter(|(a, b)| column < k || a >= b) {
+                    entries.push(Triplet::new(2 * k + a, 2 * column + b, block[a as usize][b as usize]));
+                }
+            }
+        }
+        entries
     }
 
     /// Adds a block to row `k`, which shares its blocks with none. Its inverse is that of before until [`StoredRows::invert`].
