@@ -99,7 +99,7 @@ impl<'a> Assembly<'a> {
             }
         }
         self.add_springs(&far, &mut rows, &mut lift);
-        (0..rows.nodes.len()).for_each(|k| rows.invert(k, rows.diagonal_place(k)));
+        (0..rows.nodes.len()).for_each(|k| rows.invert(k));
         // Rows of a mesh that is not cut up are alike by chance only.
         if !self.space.numbering.level.is_one_triangle() {
             rows.share(contact.range(self.space.own.clone()).map(|(node, _)| node - self.space.own.start));

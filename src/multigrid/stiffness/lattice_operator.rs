@@ -98,8 +98,8 @@ impl LatticeOperator {
         for (place, block) in places.blocks.iter().zip(blocks) {
             rows.add_at(*place, block);
         }
-        if let Some(diagonal) = places.diagonal {
-            rows.invert(places.stored as usize, diagonal);
+        if places.is_last {
+            rows.invert(places.stored as usize);
         }
         drop(rows);
         self.note_changed(std::iter::once(places.stored));

@@ -111,8 +111,8 @@ pub type ContactNeighbours = BTreeMap<usize, BTreeSet<usize>>;
 pub struct RowPlaces<'a> {
     /// The row.
     pub stored: u32,
-    /// The place of its diagonal block, if that is to be inverted again.
-    pub diagonal: Option<BlockPlace>,
+    /// Whether its diagonal block is to be inverted again: nothing more is added to it.
+    pub is_last: bool,
     /// The places of the couplings.
     pub blocks: &'a [BlockPlace],
 }

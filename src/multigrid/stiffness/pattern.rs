@@ -3,6 +3,7 @@
 use super::ContactNeighbours;
 use super::stored_rows::{Part, StoredRows};
 use std::ops::Range;
+use std::rc::Rc;
 
 /// Columns of rows, each perhaps several times, before they are sorted. Nodes have their numbers among all ranks.
 pub struct RowColumns {
@@ -89,7 +90,7 @@ impl RowColumns {
         // Pages that the system has cleared are copied when they are first added to: written now, they are touched once.
         let mut blocks = Vec::with_capacity(columns.len());
         blocks.resize(columns.len(), [[0.0; 2]; 2]);
-        Part { starts, firsts, blocks, columns }
+        Part { starts, firsts, kept: Rc::default(), blocks, columns }
     }
 }
 
@@ -119,7 +120,9 @@ impl StoredRows {
         let mut other = self.far.clone();
         other.columns.iter_mut().for_each(|column| *column = moved[*column as usize]);
         let other = other.widened(&of(false));
-        let (mut inverses, mut inverse_of) = (self.inverses.clone(), self.inverse_of.clone());
+        let mut inverses = Vec::with_capacity(self.inverses.len() + rows().count());
+        inverses.extend_from_slice(&self.inverses);
+        let mut inverse_of = self.inverse_of.clone();
         for k in rows().filter_map(|(row, _)| self.place(row - own.start)) {
             inverses.push(*self.inverse(k));
             inverse_of[k] = inverses.len() as u32 - 1;
@@ -132,18 +135,22 @@ impl Part {
     /// A copy with zeros in these columns of some rows (both ascending), where there is nothing yet. These rows have blocks of
     /// their own.
     fn widened(&self, wanted: &[(usize, Vec<u32>)]) -> Self {
-        let most = self.columns.len() + wanted.iter().map(|(_, columns)| columns.len()).sum::<usize>();
+        let most_new: usize = wanted.iter().map(|(_, columns)| columns.len()).sum();
+        let most_blocks = most_new + wanted.iter().map(|(k, _)| self.row(*k).len()).sum::<usize>();
+        let mut blocks = Vec::with_capacity(self.blocks.len() + most_blocks);
+        blocks.extend_from_slice(&self.blocks);
         let mut wide = Self {
             starts: Vec::with_capacity(self.starts.len()),
-            columns: Vec::with_capacity(most),
+            columns: Vec::with_capacity(self.columns.len() + most_new),
             firsts: Vec::with_capacity(self.firsts.len()),
-            blocks: self.blocks.clone(),
+            kept: self.kept.clone(),
+            blocks,
         };
         wide.starts.push(0);
         let mut next = 0;
         for (k, columns) in wanted {
             wide.copy(self, next..*k);
-            wide.firsts.push(wide.blocks.len() as u32);
+            wide.firsts.push(wide.count() as u32);
             let mut columns = columns.as_slice();
             for (column, block) in self.couplings(*k) {
                 let before = columns.partition_point(|&wanted| wanted < column);
@@ -171,5 +178,52 @@ impl Part {
     fn push(&mut self, column: u32, block: crate::element::Block) {
         self.columns.push(column);
         self.blocks.push(block);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::stored_rows::BlockColumn;
+    use super::*;
+
+    /// Three rows along a line, each coupled to those beside it, and the first to a node of another rank.
+    fn rows() -> StoredRows {
+        let mut columns = RowColumns::new(&[3, 3, 2]);
+        for (row, column) in [(0, 10), (0, 11), (0, 3), (1, 10), (1, 11), (1, 12), (2, 11), (2, 12)] {
+            columns.push(row, column);
+        }
+        let (mut rows, far) = columns.into_rows(vec![0, 1, 2], &(10..13), std::iter::empty());
+        assert_eq!(far, [3]);
+        for k in 0..3 {
+            rows.add(k, BlockColumn::Near(k as u32), &[[2.0 + k as f64, 0.0], [0.0, 1.0]]);
+            rows.invert(k);
+        }
+        rows
+    }
+
+    fn blocks(rows: &StoredRows, k: usize) -> Vec<(u32, crate::element::Block)> {
+        rows.near.couplings(k).chain(rows.far.couplings(k)).map(|(column, block)| (column, *block)).collect()
+    }
+
+    #[test]
+    fn copies_with_places_for_contact_have_the_blocks_of_the_bodies_in_common() {
+        let contact = ContactNeighbours::from([(10, [10, 12, 5].into()), (12, [10, 12].into())]);
+        let mut kept = rows();
+        kept.keep();
+        let [(alone, _), (mut common, far)] = [&rows(), &kept].map(|rows| rows.with_places(&contact, &(10..13), &[3]));
+        assert!(Rc::ptr_eq(&common.near.kept, &kept.near.kept) && common.near.blocks.len() == 3 + 3);
+        assert_eq!(far, [3, 5]);
+        for k in 0..3 {
+            assert_eq!(blocks(&common, k), blocks(&alone, k));
+            assert_eq!(common.inverse(k), alone.inverse(k));
+        }
+        // What contact adds is in this copy alone, also to columns of other ranks.
+        common.add(0, BlockColumn::Near(0), &[[1.0; 2]; 2]);
+        common.add(0, BlockColumn::Far(1), &[[7.0; 2]; 2]);
+        common.invert(0);
+        assert_eq!(common.diagonal(0), &[[3.0, 1.0], [1.0, 2.0]]);
+        assert_eq!(blocks(&common, 0).last(), Some(&(1, [[7.0; 2]; 2])));
+        assert_eq!(kept.diagonal(0), &[[2.0, 0.0], [0.0, 1.0]]);
+        assert_ne!(common.inverse(0), kept.inverse(0));
     }
 }

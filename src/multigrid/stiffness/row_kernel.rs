@@ -70,8 +70,7 @@ impl Part {
         x: &[[f64; 2]],
     ) -> [f64; 2] {
         let row = self.row(k);
-        let blocks = &self.blocks[self.firsts[k] as usize..][..row.len()];
-        let (columns, blocks) = (self.columns[row].as_chunks::<2>(), blocks.as_chunks::<2>());
+        let (columns, blocks) = (self.columns[row].as_chunks::<2>(), self.blocks_of(k).as_chunks::<2>());
         let zero = lanes.load([[0.0; 2]; 2]);
         let (mut one, mut other) = (zero, zero);
         if let ([column], [block]) = (columns.1, blocks.1) {

@@ -5,6 +5,7 @@ use crate::element::Block;
 use faer::sparse::Triplet;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
+use std::rc::Rc;
 
 /// Columns of a row in which a place is counted, not searched: a P2 corner where six triangles meet couples to 19 nodes.
 /// It bounds the work on long rows of contact, and changes no result; values beside it were not timed.
@@ -27,12 +28,14 @@ pub struct StoredRows {
 }
 
 /// One part of all rows: the columns of row `k` are `starts[k]..starts[k + 1]`, ascending, and its blocks are as many from
-/// `firsts[k]` on.
+/// `firsts[k]` on, counted through those that are `kept` and then the others.
 #[derive(Clone)]
 pub struct Part {
     pub(crate) starts: Vec<u32>,
     pub(crate) columns: Vec<u32>,
     pub(crate) firsts: Vec<u32>,
+    /// Blocks that all copies of these rows have in common: those of the bodies without contact.
+    pub(crate) kept: Rc<Vec<Block>>,
     pub(crate) blocks: Vec<Block>,
 }
 
@@ -65,7 +68,7 @@ impl BlockColumn {
 
 impl Default for Part {
     fn default() -> Self {
-        Self { starts: vec![0], columns: Vec::new(), firsts: Vec::new(), blocks: Vec::new() }
+        Self { starts: vec![0], columns: Vec::new(), firsts: Vec::new(), kept: Rc::default(), blocks: Vec::new() }
     }
 }
 
@@ -90,14 +93,34 @@ impl Part {
 
     /// Whether each row has blocks of its own, which lie like its columns.
     pub fn is_unshared(&self) -> bool {
-        self.firsts.iter().zip(&self.starts).all(|(first, start)| first == start)
+        self.kept.is_empty() && self.firsts.iter().zip(&self.starts).all(|(first, start)| first == start)
     }
 
     /// Couplings of row `k`.
     pub fn couplings(&self, k: usize) -> impl Iterator<Item = (u32, &Block)> {
-        let row = self.row(k);
-        let blocks = &self.blocks[self.firsts[k] as usize..][..row.len()];
-        self.columns[row].iter().copied().zip(blocks)
+        self.columns[self.row(k)].iter().copied().zip(self.blocks_of(k))
+    }
+
+    /// Blocks of row `k`.
+    #[inline(always)]
+    pub fn blocks_of(&self, k: usize) -> &[Block] {
+        let first = self.firsts[k] as usize;
+        let blocks = match first.checked_sub(self.kept.len()) {
+            Some(first) => &self.blocks[first..],
+            None => &self.kept[first..],
+        };
+        &blocks[..self.row(k).len()]
+    }
+
+    /// How many blocks there are.
+    pub(super) fn count(&self) -> usize {
+        self.kept.len() + self.blocks.len()
+    }
+
+    /// The blocks so far become those that copies have in common.
+    fn keep(&mut self) {
+        assert!(self.kept.is_empty(), "rows are kept once");
+        self.kept = Rc::new(std::mem::take(&mut self.blocks));
     }
 
     /// The block of row `k` in a column.
@@ -123,7 +146,7 @@ impl Part {
         let mut known: FxHashMap<u64, u32> = FxHashMap::default();
         let mut blocks: Vec<Block> = Vec::new();
         for (k, keeps) in keeps.iter().enumerate() {
-            let row = &self.blocks[self.firsts[k] as usize..][..self.row(k).len()];
+            let row = self.blocks_of(k);
             let next = blocks.len() as u32;
             let first = if *keeps { next } else { *known.entry(fingerprint(row)).or_insert(next) };
             // Two rows with one fingerprint are told apart.
@@ -158,12 +181,18 @@ impl StoredRows {
         }
     }
 
+    /// The blocks so far are those that copies have in common. Nothing is added to them any more.
+    pub fn keep(&mut self) {
+        self.near.keep();
+        self.far.keep();
+    }
+
     /// Replaces the blocks of row `k`, which shares them with none: those of columns of this rank first.
     pub fn set_row(&mut self, k: usize, blocks: &[Block]) {
         let (near, far) = blocks.split_at(self.near.row(k).len());
         self.near.blocks[self.near.firsts[k] as usize..][..near.len()].copy_from_slice(near);
         self.far.blocks[self.far.firsts[k] as usize..][..far.len()].copy_from_slice(far);
-        self.invert(k, self.diagonal_place(k));
+        self.invert(k);
     }
 
     /// The nodes whose rows these are.
@@ -233,15 +262,21 @@ impl StoredRows {
     pub fn block_place(&self, k: usize, column: BlockColumn) -> BlockPlace {
         match column {
             BlockColumn::Near(column) => BlockPlace(self.near.at(k, column) as u32),
-            BlockColumn::Far(column) => BlockPlace((self.near.blocks.len() + self.far.at(k, column)) as u32),
+            BlockColumn::Far(column) => BlockPlace((self.near.count() + self.far.at(k, column)) as u32),
         }
     }
 
     /// As [`StoredRows::add`], where the place is known.
+    ///
+    /// # Panics
+    /// If copies have the block in common.
     #[inline]
     pub fn add_at(&mut self, BlockPlace(place): BlockPlace, block: &Block) {
-        let (place, near) = (place as usize, self.near.blocks.len());
-        let sum = if place < near { &mut self.near.blocks[place] } else { &mut self.far.blocks[place - near] };
+        let (place, near) = (place as usize, self.near.count());
+        let sum = match place.checked_sub(near) {
+            None => &mut self.near.blocks[place - self.near.kept.len()],
+            Some(place) => &mut self.far.blocks[place - self.far.kept.len()],
+        };
         for a in 0..2 {
             for b in 0..2 {
                 sum[a][b] += block[a][b];
@@ -259,24 +294,19 @@ impl StoredRows {
         place(&self.nodes, node)
     }
 
-    /// Inverts the diagonal block of row `k`, which lies at `diagonal`.
+    /// Inverts the diagonal block of row `k`.
     ///
     /// # Panics
     /// If it has no inverse: that of a stiffness has one.
     #[inline]
-    pub fn invert(&mut self, k: usize, BlockPlace(diagonal): BlockPlace) {
-        let block = &self.near.blocks[diagonal as usize];
-        self.inverses[self.inverse_of[k] as usize] = inverse(block).expect("a stiffness has a diagonal");
-    }
-
-    /// Where the diagonal block of row `k` lies.
-    pub fn diagonal_place(&self, k: usize) -> BlockPlace {
-        BlockPlace(self.near.at(k, self.nodes[k]) as u32)
+    pub fn invert(&mut self, k: usize) {
+        let inverse = inverse(self.diagonal(k)).expect("a stiffness has a diagonal");
+        self.inverses[self.inverse_of[k] as usize] = inverse;
     }
 
     /// The diagonal block of row `k`.
     pub fn diagonal(&self, k: usize) -> &Block {
-        &self.near.blocks[self.near.at(k, self.nodes[k])]
+        &self.near.blocks_of(k)[self.near.at(k, self.nodes[k]) - self.near.firsts[k] as usize]
     }
 
     /// Largest sum of magnitudes in a row.
@@ -309,7 +339,13 @@ mod tests {
     fn rows_of_zeros_share_nothing_with_rows_that_keep_their_own() {
         let zero = [[0.0; 2]; 2];
         // No coupling, two that contact will add to, and one.
-        let mut part = Part { starts: vec![0, 0, 2, 3], columns: vec![0, 1, 0], firsts: vec![0, 0, 2], blocks: vec![zero; 3] };
+        let mut part = Part {
+            starts: vec![0, 0, 2, 3],
+            columns: vec![0, 1, 0],
+            firsts: vec![0, 0, 2],
+            kept: Rc::default(),
+            blocks: vec![zero; 3],
+        };
         part.share(&[false, true, false]);
         let [_, kept, other] = [0, 1, 2].map(|k| part.firsts[k] as usize);
         assert!(other >= kept + 2 || other < kept, "the row from {other} on lies in the one from {kept} on");

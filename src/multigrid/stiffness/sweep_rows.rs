@@ -272,6 +272,7 @@ impl Part {
 #[cfg(test)]
 mod tests {
     use super::super::assembly::{Assembled, Assembly};
+    use super::super::stored_rows::BlockColumn;
     use super::*;
     use crate::contact::MultiplierSpace;
     use crate::discretisation::samples::{blocks, pair, vector};
@@ -370,13 +371,13 @@ mod tests {
         for factor in [1e-150, 1e150] {
             let (mut rows, others) = all_rows().swap_remove(0);
             rows.near.blocks.as_flattened_mut().as_flattened_mut().iter_mut().for_each(|value| *value *= factor);
-            (0..rows.nodes.len()).for_each(|k| rows.invert(k, rows.diagonal_place(k)));
+            (0..rows.nodes.len()).for_each(|k| rows.invert(k));
             let (count, mut sweep) = (rows.nodes.len(), SweepRows::new(&rows, true));
             let b: Vec<[f64; 2]> = vector(count, 3).into_iter().map(|b| b.map(|b| b * factor)).collect();
             // A support under one node, much stiffer than the body.
             let (changed, stiff) = (count / 2, 1e3 * factor);
-            rows.add_at(rows.diagonal_place(changed), &[[stiff, 0.0], [0.0, stiff]]);
-            rows.invert(changed, rows.diagonal_place(changed));
+            rows.add(changed, BlockColumn::Near(changed as u32), &[[stiff, 0.0], [0.0, stiff]]);
+            rows.invert(changed);
             sweep.refresh(&rows, std::iter::once(changed));
             let (mut x, mut exact, far) = (vec![[0.0; 2]; count], vec![[0.0; 2]; count], vector(others, 5));
             sweep.relax(&rows, &b, &mut x, &far);
@@ -387,7 +388,7 @@ mod tests {
             assert!(SweepRows::can_be_single(&rows));
             // Springs along an inclined line.
             let spring = 1e8 * rows.diagonal(0)[0][0];
-            rows.add_at(rows.diagonal_place(0), &[[0.36 * spring, 0.48 * spring], [0.48 * spring, 0.64 * spring]]);
+            rows.add(0, BlockColumn::Near(0), &[[0.36 * spring, 0.48 * spring], [0.48 * spring, 0.64 * spring]]);
             assert!(!SweepRows::can_be_single(&rows), "single precision would lose the body beside the spring");
         }
     }

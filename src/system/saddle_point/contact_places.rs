@@ -98,8 +98,8 @@ impl ContactPlaces {
             }
             let places = &self.places[row.first as usize..][..nodes.len()];
             // More is added to what the next group has: its diagonal block is inverted then.
-            let diagonal = Some(places[at]).filter(|_| !(next_follows && row.is_in_next));
-            stiffness.add_to_row(RowPlaces { stored: row.stored, diagonal, blocks: places }, blocks);
+            let is_last = !(next_follows && row.is_in_next);
+            stiffness.add_to_row(RowPlaces { stored: row.stored, is_last, blocks: places }, blocks);
         }
     }
 }
