@@ -1,6 +1,7 @@
 //! What hosts do to runs: starts at the same time, memory and files that are limited, variables that others have set. The long
 //! form is `ci/faults`.
 
+use crate::support::mesh::Mesh;
 use crate::support::process::finish;
 use crate::support::{is_long, names_in};
 use serde_json::Value;
@@ -57,24 +58,37 @@ fn a_check_tells_what_a_run_takes_and_that_it_is_too_much() {
     assert_eq!(code, Some(0), "{errors}");
 }
 
-/// The forecast is what a run takes, to a quarter.
+/// The forecast is what a run takes, to a quarter: of rows that are worked on as a whole, of such as all lie in a fine mesh of the
+/// file, and of those of boundaries that move and tools.
 #[test]
 fn the_forecast_of_memory_is_true() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let settings = "--set contact.seam.segments=auto --set exact.must_hold=false --set mesh.refine=5";
-    let words = format!("{} {settings}", case("bars_inclined/even.toml"));
-    let (_, output, _) = shell(folder.path(), &format!("{MEZHA} check {words}"));
+    let fine = folder.path().join("fine.msh");
+    std::fs::write(&fine, Mesh::inclined_bars(28).text()).expect("a mesh can be written");
+    let bars = format!("{} --set contact.seam.segments=auto --set exact.must_hold=false", case("bars_inclined/even.toml"));
+    forecast_is_true(folder.path(), &format!("{bars} --set mesh.refine=5"));
+    forecast_is_true(folder.path(), &format!("{bars} --set mesh.refine=0 --set mesh.file={}", fine.display()));
+    forecast_is_true(folder.path(), &format!("{} --set mesh.refine=5 --set output.fields=false", case("rigid_strip/case.toml")));
+}
+
+fn forecast_is_true(folder: &Path, words: &str) {
+    let (_, output, _) = shell(folder, &format!("{MEZHA} check {words}"));
     let told = output.lines().find_map(|line| line.strip_prefix("memory: some ")).expect("a forecast");
-    let mut numbers = told.split_whitespace().filter_map(|word| word.parse::<f64>().ok());
-    let [first, further] = [(); 2].map(|()| numbers.next().expect("a number of MB"));
+    let numbers: Vec<&str> = told.split_whitespace().collect();
+    let amount = |unit: &(usize, &&str)| ["MB", "GB"].contains(unit.1);
+    let mut amounts = numbers.iter().enumerate().filter(amount).map(|(at, unit)| {
+        let number: f64 = numbers[at - 1].parse().expect("a number");
+        if *unit == "GB" { 1e3 * number } else { number }
+    });
+    let [first, further] = [(); 2].map(|()| amounts.next().expect("an amount"));
     for (ranks, forecast) in [(1, first), (2, first + further)] {
-        let run = format!("mpirun -n {ranks} --oversubscribe --bind-to none {MEZHA} run {words} --out {ranks} --quiet");
-        let (code, _, errors) = shell(folder.path(), &run);
+        let run = format!("mpirun -n {ranks} --oversubscribe --bind-to none {MEZHA} run {words} --out result --force --quiet");
+        let (code, _, errors) = shell(folder, &run);
         assert_eq!(code, Some(0), "{errors}");
-        let text = std::fs::read_to_string(folder.path().join(ranks.to_string()).join("summary.json")).expect("a summary");
+        let text = std::fs::read_to_string(folder.join("result/summary.json")).expect("a summary");
         let summary: Value = serde_json::from_str(&text).expect("JSON");
         let taken = summary["memory_mib"]["sum"].as_f64().expect("a number") * 1.048576;
-        assert!((forecast / taken - 1.0).abs() < 0.25, "{ranks} ranks: {forecast} MB forecast, {taken:.0} MB taken");
+        assert!((forecast / taken - 1.0).abs() < 0.25, "{words} on {ranks}: {forecast} MB forecast, {taken:.0} MB taken");
     }
 }
 

@@ -1,21 +1,33 @@
 //! How much memory a run will take, before it takes it.
 //!
-//! Rows of the stiffness are counted, since bent macro triangles store all of theirs, graded ones share most of them, and even ones store next to none; all else goes
-//! with the unknowns of the finest level and with the macro triangles. Processes and libraries, some 60 MB for each rank, are
-//! there already when this is asked.
+//! Rows of the stiffness are counted by what is stored of each: bent macro triangles store all of theirs, the rows inside of others
+//! are alike but for a few, and large even ones store none. All else goes with the unknowns of the finest level and with the macro
+//! triangles. Processes and libraries, some 60 MB for each rank, are there already when this is asked.
+//!
+//! Forecast and resident memory of all ranks with those 60 MB, on two ranks, MB:
+//!
+//! | scene | unknowns | forecast | taken |
+//! |---|---|---|---|
+//! | `bars_inclined`, P2, `refine = 7` | 4.2 million | 1160 | 889 |
+//! | `bars_parabola`, P2, `refine = 7` | 3.0 million | 826 | 842 |
+//! | `rigid_strip`, P2, `refine = 6` | 4.3 million | 1660 | 1705 |
+//! | `hertz`, P2, `refine = 6` | 3.0 million | 745 | 781 |
+//! | `graded.toml` of `bars_inclined`, P2, `refine = 6` | 0.9 million | 613 | 601 |
+//! | 1.13 million triangles of Gmsh, P1 | 1.1 million | 1432 | 1326 |
+//! | the same, P2 | 4.5 million | 3632 | 3515 |
+//! | 182 thousand triangles of Gmsh, P2, `refine = 1` | 2.9 million | 2004 | 2003 |
 
-use crate::discretisation::{Form, Scene, node_count, ranks_in_group};
+use crate::discretisation::{Form, SMALL, Scene, node_count, ranks_in_group};
 use crate::element::Order;
 use crate::mesh::{Level, Numbering, lattice, levels};
 use crate::system::choice::{SolverChoice, Tolerance};
+use crate::system::rigid_border::moves_rigidly;
 use crate::system::solver::{MANY, Preconditioning};
 
 /// Bytes for each unknown of the displacement in vectors, preconditioner and interpolations, at the peak of a solve: with GMRES, of
 /// some ten iterations; with BiCGStab, on so many unknowns that it takes the place of GMRES; and where BiCGStab does not come to a
-/// tight tolerance, so that GMRES follows it, with as many vectors as from the start at most. Measured as resident memory less that
-/// of the processes themselves, on one rank and on two, with fields and without, which are written after that peak: example 1 with
-/// P1 and P2 at 66 thousand to 16.8 million unknowns, and whole rings up to 0.86 million. Forecasts are within a fifth of all of
-/// these; where GMRES follows they may be above by more.
+/// tight tolerance, so that GMRES follows it, with as many vectors as from the start at most: where it need not, as in the first row
+/// of the table, forecasts are too large.
 const BY_UNKNOWN: [f64; 3] = [250.0, 175.0, 250.0];
 
 /// Relative residual below which BiCGStab mostly stops too early.
@@ -25,25 +37,29 @@ const TIGHT: f64 = 1e-9;
 /// on graded meshes of example 1 at 0.9 million unknowns.
 const BY_UNKNOWN_IF_FLAT: f64 = 270.0;
 
-/// Bytes for each macro triangle on every rank: the mesh, its partition, the lists of assembly. Measured at 369 thousand of them
-/// with P2, `refine` 0 and 2.
-const BY_MACRO_TRIANGLE: f64 = 500.0;
+/// What unknown rigid motions add: seven vectors. Measured on `rigid_strip` and `rigid_tools` at 3 and 4.3 million unknowns.
+const BY_UNKNOWN_IF_RIGID: f64 = 56.0;
+
+/// Bytes for each macro triangle on every rank: the mesh and its partition.
+const BY_MACRO_TRIANGLE: f64 = 240.0;
+
+/// Bytes for each macro triangle of a rank where auxiliary levels stand below them: their functions at the vertices, with lists both
+/// ways, and their rows. These and the figure above were counted on 1.13 million triangles by the places that ask for memory.
+const BY_AUXILIARY: f64 = 260.0;
 
 /// Bytes for each macro triangle in the partition of levels that are brought together on fewer ranks: one for each size of group.
 const BY_PARTITION: f64 = 52.0;
 
-/// A block with its column, and what a row has besides: its node, its inverse, its beginnings.
-const BY_BLOCK: f64 = 36.0;
+/// A block.
+const BY_BLOCK: f64 = 32.0;
+
+/// Its column, and what a row has besides: its node, its inverse, its beginnings. Copies of the rows have their own.
+const BY_COLUMN: f64 = 4.0;
 const BY_ROW: f64 = 44.0;
 
-/// The column of a block that other rows of a graded macro triangle have, too.
-const BY_SHARED_BLOCK: f64 = 4.0;
-
-/// Share of the stored rows that is there at the peak; measured on whole rings, which store most of theirs.
-const AT_THE_PEAK: f64 = 0.6;
-
-/// A block of the coarsest level in a matrix of PETSc's, which has all of its rows.
-const BY_ENTRIES: f64 = 48.0;
+/// The same in single precision, where all rows are stored, as sweeps read them: a block; a row's diagonal, inverse and sum.
+const BY_SWEPT_BLOCK: f64 = 16.0;
+const BY_SWEPT_ROW: f64 = 52.0;
 
 /// Mean number of blocks in a stored row, P1 and P2.
 const BLOCKS: [f64; 2] = [7.0, 11.5];
@@ -59,30 +75,24 @@ pub fn memory_need(scene: &Scene, refine: usize, (choice, tolerance): (SolverCho
     let nodes = |level: Level| Numbering::new(level, &scene.partition);
     let unknowns = 2.0 * nodes(finest).range(rank).len() as f64;
     let of_macro_mesh = memory_of_macro_mesh(scene) + memory_of_partitions(scene, &levels);
-    // Where boundaries follow the solution, each has its own copy.
-    let copies = if scene.pairs.iter().any(|pair| pair.follows()) { 2.0 } else { 1.0 };
-    let by_row =
-        |level: Level, by_block: f64| AT_THE_PEAK * copies * (BY_ROW + by_block * BLOCKS[usize::from(level.order == Order::P2)]);
+    let of_level = |&level: &Level| memory_of_level(scene, level, rank);
     match choice.form() {
         Form::Augmented => {
-            let of_levels = |&level: &Level| {
-                let [whole, shared] = nodes_inside(scene, level, rank);
-                let stored = nodes(level).range(rank).len() - whole - shared;
-                by_row(level, BY_BLOCK) * stored as f64 + by_row(level, BY_SHARED_BLOCK) * shared as f64
-            };
             let flat = Preconditioning::of(refine + 1, &scene.mesh.ratios) != Preconditioning::Sweep;
             let more = if flat { BY_UNKNOWN_IF_FLAT } else { 0.0 };
             let is_large = !flat && 2 * nodes(finest).node_count() > MANY;
             let method = if is_large { 1 + usize::from(tolerance.residual() < TIGHT) } else { 0 };
-            let by_unknown = more + BY_UNKNOWN[method];
-            let coarsest = nodes(levels[0]).range(rank).len() as f64 * BLOCKS[0] * BY_ENTRIES;
-            of_macro_mesh + by_unknown * unknowns + coarsest + levels.iter().map(of_levels).sum::<f64>()
+            let rigid = if moves_rigidly(scene) { BY_UNKNOWN_IF_RIGID } else { 0.0 };
+            let by_unknown = more + rigid + BY_UNKNOWN[method];
+            let has_auxiliary = 2 * scene.mesh.vertices.len() > SMALL;
+            let own = if has_auxiliary { scene.partition.triangles_of(rank).len() as f64 } else { 0.0 };
+            of_macro_mesh + BY_AUXILIARY * own + by_unknown * unknowns + levels.iter().map(of_level).sum::<f64>()
         }
         Form::Plain => {
             let [at_a_million, growth] = BY_FACTOR[usize::from(scene.order == Order::P2)];
             let all = 2.0 * nodes(finest).node_count() as f64;
             let by_unknown = (at_a_million + growth * (all / 1e6).ln() / 4f64.ln()).max(0.5 * at_a_million);
-            of_macro_mesh + by_unknown * unknowns + by_row(finest, BY_BLOCK) * nodes(finest).range(rank).len() as f64
+            of_macro_mesh + by_unknown * unknowns + of_level(&finest)
         }
     }
 }
@@ -101,12 +111,27 @@ fn memory_of_partitions(scene: &Scene, levels: &[Level]) -> f64 {
     BY_PARTITION * (groups.len() * scene.mesh.triangles.len()) as f64
 }
 
-/// Nodes of a rank inside of macro triangles: those whose rows are not stored, and those whose rows share their blocks.
+/// Bytes that the rows of a level take on a rank.
+fn memory_of_level(scene: &Scene, level: Level, rank: usize) -> f64 {
+    let blocks = BLOCKS[usize::from(level.order == Order::P2)];
+    // Where boundaries follow the solution, each has columns of its own, and its blocks but for those of contact from the bodies.
+    let copies = if scene.pairs.iter().any(|pair| pair.follows()) { 2.0 } else { 1.0 };
+    let [whole, alike] = nodes_inside(scene, level, rank);
+    let stored = Numbering::new(level, &scene.partition).range(rank).len() - whole;
+    let swept = if whole == 0 { BY_SWEPT_ROW + BY_SWEPT_BLOCK * blocks } else { 0.0 };
+    let of_row = copies * (BY_ROW + BY_COLUMN * blocks) + swept;
+    of_row * stored as f64 + BY_BLOCK * blocks * (stored - alike) as f64
+}
+
+/// Nodes of a rank inside of macro triangles: those whose rows are not stored, and those whose blocks another row has, too.
 fn nodes_inside(scene: &Scene, level: Level, rank: usize) -> [usize; 2] {
     let own = scene.partition.triangles_of(rank).iter().map(|&triangle| triangle as usize);
     let (whole, others): (Vec<usize>, Vec<usize>) = own.partition(|&triangle| scene.mesh.is_whole(triangle, level));
-    let shared = others.into_iter().filter(|&triangle| scene.mesh.repeats(triangle)).count();
-    [whole.len(), shared].map(|count| count * lattice::inner_count(level.intervals))
+    let repeating = others.into_iter().filter(|&triangle| scene.mesh.repeats(triangle)).count();
+    let inside = lattice::inner_count(level.intervals);
+    // Inside of an even macro triangle corners of P2 are alike, and midsides along each direction.
+    let different = if level.order == Order::P2 { 4 } else { 1 };
+    [whole.len() * inside, repeating * inside.saturating_sub(different)]
 }
 
 #[cfg(test)]

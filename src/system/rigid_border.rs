@@ -14,7 +14,7 @@
 
 use crate::body::{Motion, RigidNodes, RigidSet, UNIT_MOTIONS, rigid_displacement};
 use crate::discretisation::{
-    Discretisation, Field, Space, SpringForces, SystemError, held_motions, holds_of_bodies, internal_forces, nodal_forces,
+    Discretisation, Field, Scene, Space, SpringForces, SystemError, held_motions, holds_of_bodies, internal_forces, nodal_forces,
     rigid_motions,
 };
 use crate::geometry::Point;
@@ -61,6 +61,11 @@ pub struct RigidBorder {
     nodes: Vec<(usize, usize, Point)>,
 }
 
+/// Whether rigid motions of a scene are unknown.
+pub fn moves_rigidly(scene: &Scene) -> bool {
+    !scene.means.is_empty() || scene.rigid.iter().any(|set| set.free().next().is_some())
+}
+
 impl RigidBorder {
     /// Assembles them; nothing if there are none. **Collective**
     ///
@@ -68,7 +73,7 @@ impl RigidBorder {
     /// [`SystemError`] from PETSc or an inverted triangle.
     pub fn new(problem: &Discretisation, session: &Session) -> Result<Option<Self>, SystemError> {
         let scene = &problem.scene;
-        if scene.means.is_empty() && scene.rigid.iter().all(|set| set.free().next().is_none()) {
+        if !moves_rigidly(scene) {
             return Ok(None);
         }
         let mut border = Self {
