@@ -4,8 +4,8 @@
 //! each level, the [`Contact`]s with their segments and multipliers, and their [`Coupling`] to the bodies; the forces that
 //! loads, springs and stresses make at the nodes; and what supports and contact leave free to move.
 //!
-//! In reading order: `scene.rs`, `space.rs`, `contacts/`, `field.rs`, `held_bodies.rs`, `levels.rs`; then `displacement.rs`, `elements.rs`, `forces/`,
-//! `motions/`.
+//! In reading order: `scene.rs`, `space.rs`, `contacts/`, `field.rs`, `held_bodies.rs`, `levels.rs`; then `displacement.rs`,
+//! `elements.rs`, `forces/`, `motions/`.
 //!
 //! - Invariant: no rank asks another about the mesh; each computes the numbers of the nodes of all others.
 //! - Invariant: body 1 and body 2 of a contact never meet. Each is coupled to Γ_C alone.

@@ -154,7 +154,7 @@ pub fn spread(mesh: &MacroMesh, pairs: &[Pair], order: Order, refine: usize, ses
     let side = |name: &String| mesh.boundary(name).map(|found| found.edges.as_slice()).unwrap_or(&[]);
     let sides: Vec<[&[u32]; 2]> = pairs.iter().map(|pair| pair.between.each_ref().map(side)).collect();
     let graph = Graph::new(mesh, &sides);
-    let (size, work) = (session.size(), graph.work_of_vertices(&mesh.work(order, refine)));
+    let (size, work) = (session.size(), mesh.work(order, refine));
     let ranks = partition(session, size, &graph.offsets, &graph.neighbours, &graph.connection_weights, &work)?;
-    Ok(Partition::new(mesh, &graph.ranks_of_triangles(&ranks), size))
+    Ok(Partition::new(mesh, &ranks, size))
 }

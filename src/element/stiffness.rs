@@ -103,7 +103,7 @@ pub fn stiffness<const N: usize>(nodes: &[Point; N], law: &PlaneLaw, straight: b
 /// product of the [`stiffness`] with them.
 ///
 /// # Errors
-/// As of [`stiffness`].
+/// [`BadJacobian`] if the map folds over at a quadrature point.
 pub fn internal_forces<const N: usize>(
     nodes: &[Point; N],
     u: &[Point; N],

@@ -4,51 +4,27 @@ use super::macro_mesh::MacroMesh;
 use super::morton::MortonCurve;
 use crate::geometry::{Disc, overlapping_discs};
 
-/// Macro triangles of a mesh that is dealt in blocks: of 1.1 million triangles Scotch takes 0.15 s, of their blocks 0.02.
-const MANY: usize = 100_000;
-
-/// Macro triangles of a block, which follow each other along the space-filling curve and so lie together. A block has some twelve
-/// edges in common with others: parts of blocks have borders hardly longer than parts of triangles.
-const BLOCK: usize = 16;
-
-/// The graph that is partitioned, in compressed rows: its vertices are the macro triangles, or blocks of them where there are many.
+/// The graph that is partitioned: one vertex per macro triangle, compressed rows.
 pub struct Graph {
-    /// First neighbour of each vertex, and the end.
+    /// First neighbour of each macro triangle, and the end.
     pub offsets: Vec<i32>,
     /// Neighbours.
     pub neighbours: Vec<i32>,
     /// Weight of each connection.
     pub connection_weights: Vec<i32>,
-    /// The vertex of each macro triangle.
-    vertices: Vec<u32>,
 }
 
 impl Graph {
     /// Shared edges, and the macro triangles that face each other across the boundaries of each contact pair.
     pub fn new(mesh: &MacroMesh, pairs: &[[&[u32]; 2]]) -> Self {
-        Self::of_blocks(mesh, pairs, if mesh.triangles.len() > MANY { BLOCK } else { 1 })
-    }
-
-    /// The same with so many macro triangles in each block.
-    fn of_blocks(mesh: &MacroMesh, pairs: &[[&[u32]; 2]], block: usize) -> Self {
-        let count = mesh.triangles.len();
-        let (mut order, mut vertices): (Vec<u32>, Vec<u32>) = ((0..count as u32).collect(), (0..count as u32).collect());
-        if block > 1 {
-            let keys = morton_keys(mesh);
-            order.sort_by_key(|&triangle| keys[triangle as usize]);
-            order.iter().zip(0..).for_each(|(&triangle, place)| vertices[triangle as usize] = place / block as u32);
-        }
-        let of_vertices = |both: [u32; 2]| both.map(|triangle| vertices[triangle as usize]);
-        let mut facing: Vec<[u32; 2]> = facing(mesh, pairs).into_iter().map(of_vertices).collect();
+        let mut facing = facing(mesh, pairs);
         facing.sort_unstable();
-        let mut graph = Self { offsets: vec![0], neighbours: Vec::new(), connection_weights: Vec::new(), vertices };
+        let mut graph = Self { offsets: vec![0], neighbours: Vec::new(), connection_weights: Vec::new() };
         let (mut others, mut facing) = (Vec::new(), facing.into_iter().peekable());
-        for (vertex, triangles) in (0..).zip(order.chunks(block)) {
-            let edges = triangles.iter().flat_map(|&triangle| mesh.triangles[triangle as usize].edges);
-            let across = edges.flat_map(|edge| mesh.edges[edge as usize].triangles).flatten();
-            others.extend(across.map(|other| graph.vertices[other as usize]));
-            others.extend(std::iter::from_fn(|| facing.next_if(|[from, _]| *from == vertex)).map(|[_, to]| to));
-            others.retain(|other| *other != vertex);
+        for (at, triangle) in (0..).zip(&mesh.triangles) {
+            let across = triangle.edges.iter().flat_map(|&edge| mesh.edges[edge as usize].triangles).flatten();
+            others.extend(across.filter(|&other| other != at));
+            others.extend(std::iter::from_fn(|| facing.next_if(|[from, _]| *from == at)).map(|[_, to]| to));
             others.sort_unstable();
             for alike in others.chunk_by(|a, b| a == b) {
                 graph.neighbours.push(alike[0] as i32);
@@ -58,18 +34,6 @@ impl Graph {
             others.clear();
         }
         graph
-    }
-
-    /// The work of each vertex, from that of each macro triangle.
-    pub fn work_of_vertices(&self, work: &[i32]) -> Vec<i32> {
-        let mut sums = vec![0; self.offsets.len() - 1];
-        self.vertices.iter().zip(work).for_each(|(&vertex, work)| sums[vertex as usize] += work);
-        sums
-    }
-
-    /// The rank of each macro triangle, from that of each vertex.
-    pub fn ranks_of_triangles(&self, ranks: &[i32]) -> Vec<i32> {
-        self.vertices.iter().map(|&vertex| ranks[vertex as usize]).collect()
     }
 }
 
@@ -307,30 +271,6 @@ mod tests {
         // Connected twice, they weigh twice.
         let twice = Graph::new(&mesh, &[[lower, upper], [lower, upper]]);
         assert!(beside(&twice, below).iter().all(|(other, weight)| *weight == if above.contains(other) { 2 } else { 1 }));
-    }
-
-    #[test]
-    fn blocks_are_connected_by_the_edges_between_their_triangles() {
-        let mesh = squares();
-        let (single, blocks) = (Graph::of_blocks(&mesh, &[], 1), Graph::of_blocks(&mesh, &[], BLOCK));
-        assert_eq!(blocks.offsets.len(), mesh.triangles.len() / BLOCK + 1);
-        assert_eq!(blocks.work_of_vertices(&vec![3; mesh.triangles.len()]), vec![3 * BLOCK as i32; blocks.offsets.len() - 1]);
-        let numbers: Vec<i32> = (0..blocks.offsets.len() as i32 - 1).collect();
-        let block_of = blocks.ranks_of_triangles(&numbers);
-        let mut sums = std::collections::BTreeMap::new();
-        for triangle in 0..mesh.triangles.len() as u32 {
-            for (other, weight) in beside(&single, triangle) {
-                let ends = [triangle as usize, other as usize].map(|triangle| block_of[triangle]);
-                if ends[0] != ends[1] {
-                    *sums.entry(ends).or_insert(0) += weight;
-                }
-            }
-        }
-        let found =
-            numbers.iter().flat_map(|&block| beside(&blocks, block as u32).into_iter().map(move |(to, w)| ([block, to], w)));
-        assert_eq!(found.collect::<Vec<_>>(), sums.into_iter().collect::<Vec<_>>());
-        // A block of 16 triangles is a square of 4 x 2 cells or a body's corner of it: compact, so that it has few neighbours.
-        assert!(numbers.iter().all(|&block| beside(&blocks, block as u32).len() <= 8));
     }
 
     #[test]

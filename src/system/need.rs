@@ -55,9 +55,9 @@ const BY_BLOCK: f64 = 32.0;
 
 /// Its column, and what a row has besides: its node, its inverse, its beginnings. Copies of the rows have their own.
 const BY_COLUMN: f64 = 4.0;
-const BY_ROW: f64 = 44.0;
+const BY_ROW: f64 = 56.0;
 
-/// The same in single precision, where all rows are stored, as sweeps read them: a block; a row's diagonal, inverse and sum.
+/// What sweeps read where all rows are stored: a block in single precision; of a row where its diagonal lies, its inverse, a sum.
 const BY_SWEPT_BLOCK: f64 = 16.0;
 const BY_SWEPT_ROW: f64 = 52.0;
 
@@ -75,8 +75,8 @@ pub fn memory_need(scene: &Scene, refine: usize, (choice, tolerance): (SolverCho
     let nodes = |level: Level| Numbering::new(level, &scene.partition);
     let unknowns = 2.0 * nodes(finest).range(rank).len() as f64;
     let of_macro_mesh = memory_of_macro_mesh(scene) + memory_of_partitions(scene, &levels);
-    let of_level = |&level: &Level| memory_of_level(scene, level, rank);
-    match choice.form() {
+    let form = choice.form();
+    match form {
         Form::Augmented => {
             let flat = Preconditioning::of(refine + 1, &scene.mesh.ratios) != Preconditioning::Sweep;
             let more = if flat { BY_UNKNOWN_IF_FLAT } else { 0.0 };
@@ -86,13 +86,16 @@ pub fn memory_need(scene: &Scene, refine: usize, (choice, tolerance): (SolverCho
             let by_unknown = more + rigid + BY_UNKNOWN[method];
             let has_auxiliary = 2 * scene.mesh.vertices.len() > SMALL;
             let own = if has_auxiliary { scene.partition.triangles_of(rank).len() as f64 } else { 0.0 };
-            of_macro_mesh + BY_AUXILIARY * own + by_unknown * unknowns + levels.iter().map(of_level).sum::<f64>()
+            of_macro_mesh
+                + BY_AUXILIARY * own
+                + by_unknown * unknowns
+                + levels.iter().map(|&level| memory_of_level(scene, level, form, rank)).sum::<f64>()
         }
         Form::Plain => {
             let [at_a_million, growth] = BY_FACTOR[usize::from(scene.order == Order::P2)];
             let all = 2.0 * nodes(finest).node_count() as f64;
             let by_unknown = (at_a_million + growth * (all / 1e6).ln() / 4f64.ln()).max(0.5 * at_a_million);
-            of_macro_mesh + by_unknown * unknowns + of_level(&finest)
+            of_macro_mesh + by_unknown * unknowns + memory_of_level(scene, finest, form, rank)
         }
     }
 }
@@ -112,13 +115,17 @@ fn memory_of_partitions(scene: &Scene, levels: &[Level]) -> f64 {
 }
 
 /// Bytes that the rows of a level take on a rank.
-fn memory_of_level(scene: &Scene, level: Level, rank: usize) -> f64 {
+fn memory_of_level(scene: &Scene, level: Level, form: Form, rank: usize) -> f64 {
     let blocks = BLOCKS[usize::from(level.order == Order::P2)];
     // Where boundaries follow the solution, each has columns of its own, and its blocks but for those of contact from the bodies.
     let copies = if scene.pairs.iter().any(|pair| pair.follows()) { 2.0 } else { 1.0 };
-    let [whole, alike] = nodes_inside(scene, level, rank);
+    let [whole, alike] = match (nodes_inside(scene, level, rank), form) {
+        (inside, Form::Augmented) => inside,
+        // All rows are stored; those that would be worked on as a whole are alike.
+        ([whole, alike], Form::Plain) => [0, whole + alike],
+    };
     let stored = Numbering::new(level, &scene.partition).range(rank).len() - whole;
-    let swept = if whole == 0 { BY_SWEPT_ROW + BY_SWEPT_BLOCK * blocks } else { 0.0 };
+    let swept = if whole == 0 && form == Form::Augmented { BY_SWEPT_ROW + BY_SWEPT_BLOCK * blocks } else { 0.0 };
     let of_row = copies * (BY_ROW + BY_COLUMN * blocks) + swept;
     of_row * stored as f64 + BY_BLOCK * blocks * (stored - alike) as f64
 }

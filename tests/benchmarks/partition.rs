@@ -51,9 +51,8 @@ fn deal(mesh: &MacroMesh, order: Order, size: usize, session: &Session) {
     let start = Instant::now();
     let sides = ["lower.seam", "upper.seam"].map(|name| mesh.boundary(name).expect("named").edges.as_slice());
     let (graph, work) = (Graph::new(mesh, &[sides]), mesh.work(order, REFINE));
-    let of_vertices = graph.work_of_vertices(&work);
-    let ranks = partition(session, size, &graph.offsets, &graph.neighbours, &graph.connection_weights, &of_vertices);
-    let dealt = Rc::new(Partition::new(mesh, &graph.ranks_of_triangles(&ranks.expect("a partition")), size));
+    let ranks = partition(session, size, &graph.offsets, &graph.neighbours, &graph.connection_weights, &work);
+    let dealt = Rc::new(Partition::new(mesh, &ranks.expect("a partition"), size));
     let seconds = start.elapsed().as_secs_f64();
     let works: Vec<f64> =
         (0..size).map(|rank| dealt.triangles_of(rank).iter().map(|&t| f64::from(work[t as usize])).sum()).collect();

@@ -134,10 +134,12 @@ impl Zone {
         self.values_at_ends(multipliers, lambda).map(|(value, ..)| value).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Whether the largest pressure lies beside an end of the boundary.
+    /// Whether the largest pressure lies beside an end of the boundary, be it there alone or elsewhere, too.
     pub fn peaks_at_end(&self, boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64]) -> bool {
-        let highest = self.values_at_ends(multipliers, lambda).max_by(|a, b| a.0.total_cmp(&b.0));
-        highest.is_some_and(|(_, segment, end)| !self.has_inside(boundary.segment_arcs(segment)[end]))
+        let highest = self.peak(multipliers, lambda);
+        let is_beside = |arc: f64| (0..2).any(|end| self.is_at_end[end] && (arc - self.arcs[end]).abs() < BESIDE * self.length());
+        let mut values = self.values_at_ends(multipliers, lambda);
+        values.any(|(value, segment, end)| value >= highest && is_beside(boundary.segment_arcs(segment)[end]))
     }
 
     /// Values of λ (stress) at both ends of each segment: value, segment, end.
@@ -229,6 +231,40 @@ mod tests {
         let (found, ..) = zones(MultiplierSpace::P0, |k| k >= 5);
         let inside = |arc: f64| found[0].has_inside(arc);
         assert_eq!([4.9, 5.1, 9.4, 9.6].map(inside), [false, true, true, false], "the tenth at the end of the boundary");
+    }
+
+    fn cut(mut boundary: ContactBoundary) -> ContactBoundary {
+        boundary.cut(&(0..=10).map(|k| k as f64 / 10.0).collect::<Vec<_>>());
+        boundary
+    }
+
+    #[test]
+    fn the_largest_pressure_may_lie_at_an_end_of_the_boundary_from_either_side() {
+        let line = cut(ContactBoundary::new(Curve::Line([[0.0, 0.0], [10.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0)));
+        for space in [MultiplierSpace::P0, MultiplierSpace::P1Discontinuous, MultiplierSpace::P1Continuous] {
+            let (all, multipliers, mut lambda) = zones(space, |_| true);
+            let is_at_end = |lambda: &[f64]| all[0].peaks_at_end(&line, &multipliers, lambda);
+            assert!(is_at_end(&lambda), "{space:?}: it rises up to the end");
+            lambda.reverse();
+            assert!(is_at_end(&lambda), "{space:?}: it falls from the other end");
+            assert!(is_at_end(&vec![1.0; lambda.len()]), "{space:?}: it is the same everywhere");
+            lambda[all.len() * multipliers.count() / 2] = 1e3;
+            assert!(!is_at_end(&lambda), "{space:?}: it lies in the middle");
+        }
+        // An end of contact within the boundary is none.
+        let (found, multipliers, lambda) = zones(MultiplierSpace::P0, |k| k < 5);
+        assert!(!found[0].peaks_at_end(&line, &multipliers, &lambda));
+    }
+
+    #[test]
+    fn a_closed_boundary_has_no_end_for_the_largest_pressure() {
+        let tau = std::f64::consts::TAU;
+        let curve = Curve::Circle { centre: [0.0, 0.0], radius: 10.0 / tau };
+        let circle = cut(ContactBoundary::new(curve, [0.0, tau], Point::new(-1.0, 0.0)));
+        for pressed in (0..20).map(|from| (from..from + 2).map(|k| k % 20).collect::<Vec<_>>()) {
+            let (found, multipliers, lambda) = zones_around(MultiplierSpace::P1Discontinuous, |i| pressed.contains(&i));
+            assert!(found.iter().all(|zone| !zone.peaks_at_end(&circle, &multipliers, &lambda)), "{pressed:?}");
+        }
     }
 
     /// The zones of a circle of length 10 in ten segments.

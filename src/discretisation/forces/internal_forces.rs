@@ -71,7 +71,7 @@ fn each_force(
     Ok(())
 }
 
-/// The same of a macro triangle that is a single triangle.
+/// Internal forces of a macro triangle that is a single triangle: number, force and displacement of each of its nodes.
 fn each_force_of_one<const N: usize>(
     problem: &Discretisation,
     law: &PlaneLaw,

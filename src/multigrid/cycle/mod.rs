@@ -1,5 +1,5 @@
-//! The multigrid F-cycle of mezha's own: it works on even macro triangles and stored rows directly. The coarsest level has a factor,
-//! PETSc's where not even an auxiliary level is small.
+//! The multigrid F-cycle of mezha's own: it works on even macro triangles and stored rows directly. The coarsest level has
+//! a factor, one of PETSc's where not even an auxiliary level is small.
 //!
 //! Levels with few unknowns have been brought together on fewer ranks, the small ones on one: from the first of these downwards
 //! nothing is sent, and the other ranks wait, unless there are rigid motions to be found, or steps of CG have sums of all ranks. Where

@@ -6,8 +6,8 @@ use faer::sparse::linalg::cholesky::{LdltRef, SymbolicCholesky, factorize_symbol
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{ColMut, Conj, Par, Side};
 
-/// `L D Lᵀ`. Pivots may have either sign: functions of a coarse level that are nearly alike on the mesh leave pivots of the size of
-/// rounding, which would end a Cholesky factor.
+/// `L D Lᵀ`. Pivots may have either sign: functions of a coarse level that are nearly alike on the mesh leave pivots of the
+/// size of rounding, which would end a Cholesky factor.
 pub struct SparseFactor {
     symbolic: SymbolicCholesky<u32>,
     values: Vec<f64>,

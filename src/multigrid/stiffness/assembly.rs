@@ -180,8 +180,8 @@ impl<'a> Assembly<'a> {
         if part.is_own && !part.is_whole { all(n).for_each(&mut show) } else { sides(n).for_each(&mut show) }
     }
 
-    /// Shows the couplings of different nodes in a macro triangle that is a single triangle: the place of the row, and the other node.
-    /// Those along an edge are shown by the one of its triangles that it runs along, so that all are shown once.
+    /// Shows the couplings of different nodes in a macro triangle that is a single triangle: the place of the row, and the
+    /// other node. Those along an edge are shown by the one of its triangles that it runs along, so that all are shown once.
     #[inline]
     fn each_coupling_of_one(&self, part: &AssemblyPart, mut show: impl FnMut(usize, usize)) {
         let own = &self.space.own;
@@ -210,8 +210,8 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// The same of a macro triangle that is a single triangle, all of whose nodes are coupled: the place of each row, which of the
-    /// nodes it is of, and the numbers of all nodes.
+    /// Shows the stored rows of a macro triangle that is a single triangle, all of whose nodes are coupled: the place of
+    /// each row, which of the nodes it is of, and the numbers of all nodes.
     #[inline]
     fn each_row_of_one<const N: usize>(&self, part: &AssemblyPart, mut show: impl FnMut(usize, usize, &[usize; N])) {
         let (nodes, own) = (part.numbers.of_one::<N>(), &self.space.own);

@@ -96,7 +96,7 @@ impl RowColumns {
 
 impl StoredRows {
     /// A copy with places for the couplings of contact, and its nodes of other ranks; `far` are those of this one. Rows that
-    /// contact does not touch are copied whole.
+    /// contact does not touch have the blocks of these.
     pub fn with_places(&self, contact: &ContactNeighbours, own: &Range<usize>, far: &[usize]) -> (Self, Vec<usize>) {
         let rows = || contact.range(own.clone());
         let mut all: Vec<usize> = far.to_vec();

@@ -188,7 +188,11 @@ impl StoredRows {
     }
 
     /// Replaces the blocks of row `k`, which shares them with none: those of columns of this rank first.
+    ///
+    /// # Panics
+    /// If copies have blocks in common.
     pub fn set_row(&mut self, k: usize, blocks: &[Block]) {
+        assert!(self.near.kept.is_empty() && self.far.kept.is_empty(), "rows of a product are nobody else's");
         let (near, far) = blocks.split_at(self.near.row(k).len());
         self.near.blocks[self.near.firsts[k] as usize..][..near.len()].copy_from_slice(near);
         self.far.blocks[self.far.firsts[k] as usize..][..far.len()].copy_from_slice(far);
@@ -254,7 +258,7 @@ impl StoredRows {
         self.add_at(self.block_place(k, column), block);
     }
 
-    /// The place of a block of row `k`; it holds for as long as no rows are shared.
+    /// The place of a block of row `k`; it holds until rows are shared or kept.
     ///
     /// # Panics
     /// If the row has no such column.

@@ -24,12 +24,8 @@ impl OwnFiles {
         if !is_text("mezha") || !is_text("status") {
             return None;
         }
-        let mut names = match summary.get("files").and_then(Value::as_array) {
-            Some(list) => list.iter().filter_map(Value::as_str).map(String::from).collect(),
-            None => names_without_list(&summary),
-        };
-        names.push(SUMMARY.into());
-        Some(Self(names.into_iter().map(PathBuf::from).collect()))
+        let listed = summary.get("files").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str);
+        Some(Self(listed.chain([SUMMARY]).map(PathBuf::from).collect()))
     }
 
     /// Their names.
@@ -71,45 +67,9 @@ pub fn names_within(folder: &Path) -> Result<Vec<String>, OutputError> {
     Ok(names)
 }
 
-/// The names that follow from a summary of an older version, which has no list.
-fn names_without_list(summary: &Value) -> Vec<String> {
-    let count = |pointer: &str| summary.pointer(pointer).and_then(Value::as_array).map_or(0, Vec::len);
-    let contacts = summary.get("contact").and_then(Value::as_object);
-    let contacts: Vec<&String> = contacts.into_iter().flat_map(|contacts| contacts.keys()).collect();
-    let ranks = summary.get("ranks").and_then(Value::as_u64).unwrap_or(1);
-    let mut fields = match ranks {
-        0 | 1 => vec!["fields.vtu".to_string()],
-        _ => (0..ranks).map(|rank| format!("fields_{rank:04}.vtu")).chain(["fields.pvtu".into()]).collect(),
-    };
-    fields.extend(contacts.iter().flat_map(|name| ["csv", "vtu"].map(|ending| format!("contact_{name}.{ending}"))));
-    let steps = (1..=count("/steps")).flat_map(|step| {
-        let names = fields.iter().map(String::as_str).chain(["case.toml"]);
-        names.map(move |name| format!("steps/{step:04}/{name}")).collect::<Vec<_>>()
-    });
-    let mut names: Vec<String> = steps.collect();
-    names.extend(["case.toml", "deformed.svg"].map(String::from));
-    for (key, files) in [
-        ("/provenance/mesh_hash", &["case.msh", "report.html"][..]),
-        ("/accuracy", &["adapted.msh", "accuracy.svg"]),
-        ("/steps", &["steps.csv", "steps.svg", "fields.pvd"]),
-    ] {
-        let is_told = summary.pointer(key).is_some_and(|value| !value.is_null());
-        names.extend(files.iter().filter(|_| is_told).map(|name| name.to_string()));
-    }
-    for name in contacts {
-        names.extend(["pressure", "gap", "displacement"].map(|figure| format!("{figure}_{name}.svg")));
-        let zones = summary.get("contact").and_then(|all| all[name.as_str()]["zones"].as_array()).map_or(0, Vec::len);
-        names.extend((1..=zones).map(|number| format!("deformed_{name}_{number}.svg")));
-        names.extend((count("/steps") > 0).then(|| format!("contact_{name}.pvd")));
-    }
-    names.extend(fields);
-    names
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::json;
 
     #[test]
     fn a_summary_of_mezha_makes_a_result() {
@@ -123,27 +83,5 @@ mod tests {
         let own = OwnFiles::of(folder.path()).unwrap();
         assert!(["summary.json", "steps/0001/a.csv"].iter().all(|name| own.has(Path::new(name))));
         assert!(own.has_within(Path::new("steps")) && !own.has_within(Path::new("step")) && !own.has(Path::new("case.toml")));
-    }
-
-    #[test]
-    fn names_of_older_results_follow_from_what_they_tell() {
-        let contact = json!({"seam": {"zones": [{}, {}]}});
-        let names = |summary: Value| {
-            let mut names = names_without_list(&summary);
-            names.sort();
-            names.join(" ")
-        };
-        let alone = json!({"ranks": 1, "contact": contact});
-        assert_eq!(
-            names(alone),
-            "case.toml contact_seam.csv contact_seam.vtu deformed.svg deformed_seam_1.svg deformed_seam_2.svg displacement_seam.svg fields.vtu gap_seam.svg pressure_seam.svg"
-        );
-        let all = names(json!({"ranks": 2, "contact": contact, "accuracy": [], "steps": [{}], "provenance": {"mesh_hash": "a"}}));
-        for name in
-            ["fields_0001.vtu", "fields.pvtu", "adapted.msh", "case.msh", "steps/0001/fields_0000.vtu", "contact_seam.pvd"]
-        {
-            assert!(all.split(' ').any(|other| other == name), "{name}: {all}");
-        }
-        assert!(!all.contains("fields.vtu") && !all.contains("0002"), "{all}");
     }
 }

@@ -175,7 +175,7 @@ impl ZoneEstimate {
     }
 }
 
-/// Error of the peak; stresses count in so far as they did for `error`, that of λ.
+/// Error of the peak, with the margin of all estimates; stresses count in so far as they did for `error`, that of λ.
 fn peak(error: f64, stress: Option<f64>, errors: &ZoneErrors, last: Option<&ZoneDifference>) -> Option<f64> {
     let share = stress.filter(|stress| *stress > error).map_or(1.0, |stress| (error / stress).sqrt());
     let signs = [
