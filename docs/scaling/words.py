@@ -126,8 +126,7 @@ def partition_section(lines):
     return "\n\n".join([
         "## Partitions for thousands of ranks",
         "Macro triangles dealt by PTScotch and numbered by mezha, in one process ([partition.rs](../tests/benchmarks/partition.rs)). *Halo*: "
-        "what a rank receives before a sweep over the finest level. A rank with 8 macro triangles cannot be balanced to better than one "
-        "of them.",
+        "what a rank receives before a sweep over the finest level. A rank with 8 macro triangles is balanced to one of them.",
         table(
             ["spaces", "macro triangles", "ranks", "nodes", "neighbours, most", "halo KiB, most", "work, most / mean", "nodes, most / mean", "s to deal"],
             rows,
