@@ -4,15 +4,15 @@
 //! are alike but for a few, and large even ones store none. All else goes with the unknowns of the finest level and with the macro
 //! triangles. Processes and libraries, some 60 MB for each rank, are there already when this is asked.
 //!
-//! Forecast and resident memory of all ranks with those 60 MB, on two ranks, MB:
+//! Forecast, by the rounded figures of `mezha check`, and resident memory of all ranks with those 60 MB, on two ranks, MB:
 //!
 //! | scene | unknowns | forecast | taken |
 //! |---|---|---|---|
 //! | `bars_inclined`, P2, `refine = 7` | 4.2 million | 1160 | 889 |
-//! | `bars_parabola`, P2, `refine = 7` | 3.0 million | 826 | 842 |
-//! | `rigid_strip`, P2, `refine = 6` | 4.3 million | 1660 | 1705 |
-//! | `hertz`, P2, `refine = 6` | 3.0 million | 745 | 781 |
-//! | `graded.toml` of `bars_inclined`, P2, `refine = 6` | 0.9 million | 613 | 601 |
+//! | `bars_parabola`, P2, `refine = 7` | 3.0 million | 831 | 842 |
+//! | `rigid_strip`, P2, `refine = 6` | 4.3 million | 1760 | 1705 |
+//! | `hertz`, P2, `refine = 6` | 3.0 million | 750 | 781 |
+//! | `graded.toml` of `bars_inclined`, P2, `refine = 6` | 0.9 million | 614 | 601 |
 //! | 1.13 million triangles of Gmsh, P1 | 1.1 million | 1432 | 1326 |
 //! | the same, P2 | 4.5 million | 3632 | 3515 |
 //! | 182 thousand triangles of Gmsh, P2, `refine = 1` | 2.9 million | 2004 | 2003 |
