@@ -6,6 +6,7 @@ mod gauss;
 mod nearness;
 mod parametric_curve;
 mod place;
+mod point_row;
 mod spline;
 
 pub use curve::Curve;

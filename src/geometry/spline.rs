@@ -7,6 +7,7 @@ pub use interpolation::chord_lengths;
 pub use least_squares::FitSample;
 
 use super::Point;
+use super::point_row::PointRow;
 
 /// A twice continuously differentiable piecewise cubic curve.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +19,7 @@ pub struct Spline {
     /// Whether it ends where it begins, as smooth there as elsewhere.
     closed: bool,
     /// Points of it, equally many in each span, from which the nearest one to another point is looked for.
-    points: Vec<Point>,
+    points: PointRow,
 }
 
 /// Spans of a spline which each turn so little that their ends are points enough to look for a nearest one.
@@ -30,17 +31,18 @@ const POINTS_IN_A_SPAN: usize = 4;
 impl Spline {
     /// The spline of spans with these coefficients, between knots of which there is one more.
     fn of_spans(knots: Vec<f64>, spans: Vec<[Point; 4]>, closed: bool) -> Self {
-        let mut spline = Self { knots, spans, closed, points: Vec::new() };
+        let mut spline = Self { knots, spans, closed, points: PointRow::default() };
         let (in_a_span, last) = (spline.parts() / spline.spans.len(), spline.knots.len() - 1);
         let part = |k: usize| at(&spline.spans[k / in_a_span], spline.part_end(k) - spline.knots[k / in_a_span])[0];
         let end = at(&spline.spans[last - 1], spline.knots[last] - spline.knots[last - 1])[0];
-        spline.points = (0..spline.parts()).map(part).chain([end]).collect();
+        spline.points = PointRow::new((0..spline.parts()).map(part).chain([end]).collect());
         spline
     }
 
     /// The spline shifted by a vector (length).
     pub fn moved(mut self, by: Point) -> Self {
-        self.spans.iter_mut().map(|span| &mut span[0]).chain(&mut self.points).for_each(|point| *point += by);
+        self.spans.iter_mut().for_each(|span| span[0] += by);
+        self.points.shift(by);
         self
     }
 
@@ -91,9 +93,7 @@ impl Spline {
 
     /// Parameter of the end of a part that is nearest to `p`.
     pub fn nearest_part_end(&self, p: Point) -> f64 {
-        let away = |k: &usize| (self.points[*k] - p).norm_squared();
-        let nearest = (0..self.points.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
-        self.part_end(nearest.unwrap_or(0))
+        self.part_end(self.points.nearest(p))
     }
 
     /// The span at a parameter within the range, found from where it would be among even ones.
