@@ -167,6 +167,46 @@ fn loads_are_those_that_names_and_the_drawing_tell() {
     assert!(text.contains("`mezha check` refuses a load on \"bolt.pull\"") && !text.contains("\n[load."), "{text}");
     let text = new(1.0, ["bottom", "right", "top"]);
     assert!(text.contains("# pressed: by its name") && text.contains("force = [0.0, -"), "{text}");
+    // Beside an interference the load of a name is a comment, and each body is held that a name holds.
+    let text = new(0.95, ["bottom", "right", "load"]);
+    assert!(!text.contains("\n[load.") && text.contains("\n# [load.NAME]\n# on = \"load\"\n"), "{text}");
+    let text = new(0.95, ["bottom", "right", "gripTop"]);
+    assert_eq!(text.matches("# held: by its name").count(), 2, "{text}");
+    // If all are held nothing would act.
+    let text = new(1.0, ["foot", "right", "axle"]);
+    assert!(
+        text.contains("[load.axle]          # pressed: its name says that it is held, but") && !text.contains("-still"),
+        "{text}"
+    );
+}
+
+/// A polygon for an arc that touches a line between two of its nodes is drawn touching, and two pieces of a body that meet at a point are
+/// not held there.
+#[test]
+fn curves_are_taken_as_they_are_meant_and_points_of_one_piece() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let new = |mesh: &Mesh| {
+        std::fs::write(folder.path().join("mesh.msh"), mesh.text()).expect("a mesh can be written");
+        std::fs::read_to_string(new_case(folder.path(), "mesh.msh")).expect("a case")
+    };
+    let mut mesh = two_blocks([(3, 2, 1), (4, 2, 2)]);
+    mesh.bodies[1].1 = grid(7, 2, 2, |u, v| {
+        let (angle, radius) = (2.0 * u - 1.0, 1.0 - 0.5 * v);
+        [1.0 + radius * angle.sin(), 2.0 - radius * angle.cos()]
+    });
+    let text = new(&mesh);
+    assert!(text.contains("# they are drawn touching") && text.contains("radius = 1.0"), "{text}");
+    // Two squares that meet at (4, 2), the corner that moves most when either turns about its other end.
+    let mut squares = grid(2, 2, 2, |u, v| [2.0 + 2.0 * u, 4.0 * v - 2.0]);
+    let other = grid(2, 2, 3, |u, v| [4.0 + 2.0 * u, 2.0 + 4.0 * v]);
+    let count = squares.points.len();
+    squares.points.extend(other.points);
+    squares.triangles.extend(other.triangles.into_iter().map(|triangle| triangle.map(|k| count + k)));
+    mesh.bodies = vec![("squares", squares, ["under", "", "", ""])];
+    let text = new(&mesh);
+    assert!(text.contains("\nat = [") && !text.contains("at = [4.0, 2.0]"), "{text}");
+    let (code, _, errors) = mezha_in(folder.path(), None, &["check", "case.toml"]);
+    assert_eq!(code, Some(0), "{errors}\n{text}");
 }
 
 /// `check` lists what loads and holds the bodies, with resultants, and how the sides of contacts are drawn.

@@ -11,6 +11,7 @@
 //! - Invariant: body 1 and body 2 of a contact never meet. Each is coupled to Γ_C alone.
 //! - Invariant: nothing here knows a solver. Matrices begin with [`crate::multigrid`].
 
+mod acting;
 mod contacts;
 mod displacement;
 mod elements;
@@ -28,6 +29,7 @@ mod scene;
 mod solution;
 mod space;
 
+pub use acting::{BY_ROUNDING, is_driven};
 pub use contacts::{
     BoundaryMotion, Contact, ContactPressure, Coupled, Coupling, beside, bilateral, check_soundness, coupled_here, widest,
 };

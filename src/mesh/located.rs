@@ -33,7 +33,7 @@ impl MacroMesh {
     ///
     /// # Errors
     /// Words, if it lies in none, or in several.
-    pub(super) fn piece_at(&self, spot: &Spot, is_body: impl Fn(&str) -> bool + Copy) -> Result<usize, String> {
+    pub fn piece_at(&self, spot: &Spot, is_body: impl Fn(&str) -> bool + Copy) -> Result<usize, String> {
         let x = Point::from(spot.place);
         let is_meant = |name: &str| is_body(name) && spot.body.as_ref().is_none_or(|body| body == name);
         let named = |piece: &usize| is_meant(&self.bodies[self.pieces[*piece].body]);

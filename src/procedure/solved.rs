@@ -1,7 +1,7 @@
 //! A scene solved.
 
 use crate::accuracy::Adaptation;
-use crate::discretisation::{Discretisation, Solution};
+use crate::discretisation::{BY_ROUNDING, Discretisation, Solution, is_driven};
 use crate::petsc::Session;
 use crate::procedure::boundary::BoundaryStep;
 use crate::procedure::coarse_solution::CoarseSolution;
@@ -86,11 +86,16 @@ impl Solved {
         all.iter().map(|[unknowns, iterations]| (unknowns * iterations) as f64).sum::<f64>() / self.problem.unknown_count() as f64
     }
 
-    /// Whether nothing moves and nothing presses, since nothing acts. The same on every rank. **Collective**
+    /// Whether nothing acts and nothing moves but by rounding. The same on every rank. **Collective**
     pub fn is_idle(&self, session: &Session) -> bool {
-        let Solution { displacement, multipliers, .. } = &self.solution;
-        let acts = displacement.iter().chain(multipliers).any(|value| *value != 0.0);
-        !session.any(acts) && self.is_solved()
+        let size = self.problem.scene.extents().iter().map(|extent| extent.radius).fold(0.0, f64::max);
+        let moves = self.solution.displacement.iter().any(|value| value.abs() > BY_ROUNDING * size);
+        !self.is_driven() && !session.any(moves)
+    }
+
+    /// Whether anything acts, or nothing was solved. The same on every rank.
+    pub fn is_driven(&self) -> bool {
+        !self.is_solved() || is_driven(&self.problem.scene, &self.problem.finest().numbering)
     }
 
     /// Whether there are displacements to look at.

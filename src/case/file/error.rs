@@ -90,11 +90,15 @@ impl Display for Problem {
 }
 
 /// Words for a number with a comma in the place of its dot, if the text breaks off at one.
-fn decimal_comma(before: &str, behind: &str) -> Option<String> {
+pub(crate) fn decimal_comma(before: &str, behind: &str) -> Option<String> {
     let digits = |text: &str| text.chars().take_while(char::is_ascii_digit).count();
     let whole = before.len() - before.trim_end_matches(|c: char| c.is_ascii_digit()).len();
     let decimals = digits(behind.strip_prefix(',')?);
-    let number = format!("{}.{}", &before[before.len() - whole..], &behind[1..1 + decimals]);
+    let exponent = behind[1 + decimals..].strip_prefix(['e', 'E']).map_or(0, |power| {
+        let sign = usize::from(power.starts_with(['+', '-']));
+        Some(digits(&power[sign..])).filter(|digits| *digits > 0).map_or(0, |digits| 1 + sign + digits)
+    });
+    let number = format!("{}.{}", &before[before.len() - whole..], &behind[1..1 + decimals + exponent]);
     (whole > 0 && decimals > 0).then(|| format!("a number has a dot, not a comma; write {number}"))
 }
 
@@ -142,17 +146,22 @@ pub(crate) fn quoted(value: &Value) -> String {
     }
 }
 
-/// ` did you mean "young"?` for the nearest of some names, or the list of them.
+/// `did you mean "young"?` for the nearest of some names, or the list of them.
 pub(crate) fn suggest<'a>(found: &str, names: impl Iterator<Item = &'a str>) -> String {
     let names: Vec<&str> = names.collect();
+    did_you_mean(found, &names).unwrap_or_else(|| match names.is_empty() {
+        true => "there are none".into(),
+        false => format!("there are {}", listed(names.iter().map(|name| Quote(name).to_string()))),
+    })
+}
+
+/// `did you mean "young"?` for the nearest of some names, if one is near.
+pub(crate) fn did_you_mean(found: &str, names: &[&str]) -> Option<String> {
     let lower = |name: &str| Quote(name).head().to_lowercase();
     let distance = |name: &str| strsim::damerau_levenshtein(&lower(found), &lower(name));
     let nearest = names.iter().min_by_key(|name| distance(name));
-    match nearest.filter(|name| distance(name) <= 1.max(lower(found).len().max(lower(name).len()) / 3)) {
-        Some(name) => format!("did you mean \"{}\"?", Quote(name)),
-        None if names.is_empty() => "there are none".into(),
-        None => format!("there are {}", listed(names.iter().map(|name| Quote(name).to_string()))),
-    }
+    let near = nearest.filter(|name| distance(name) <= 1.max(lower(found).len().max(lower(name).len()) / 3));
+    near.map(|name| format!("did you mean \"{}\"?", Quote(name)))
 }
 
 /// Names one after the other; of many the first.

@@ -6,7 +6,7 @@ use super::form::{
     Absent, KeyForm, LONGEST_NAME, ListForm, NO_FILE_NAME, NamedForm, NumberRange, TableForm, TableRule, ValueForm,
 };
 use super::values::{self, must_be};
-use crate::case::file::error::{Problem, suggest, told};
+use crate::case::file::error::{Problem, decimal_comma, did_you_mean, told};
 use crate::case::file::log::Log;
 use crate::geometry::Formula;
 
@@ -36,7 +36,7 @@ impl ValueForm {
             Self::Word(words) => word_refusal(words, value),
             Self::Formula(variables, range) => match value {
                 Value::String(text) if Formula::is_spelt(text, variables) => None,
-                Value::String(text) => Formula::parse(text, variables).err().map(|error| error.to_string()),
+                Value::String(text) => formula_refusal(text, variables),
                 Value::Integer(_) | Value::Float(_) => Self::Number(*range).refusal(value),
                 other => Some(must_be(&format!("a number or a formula of {}", variables.join(", ")), other)),
             },
@@ -82,6 +82,14 @@ impl NumberRange {
     }
 }
 
+fn formula_refusal(text: &str, variables: &[&str]) -> Option<String> {
+    let error = Formula::parse(text, variables).err()?;
+    // Within brackets a comma may stand between arguments.
+    let comma = text.split_once(',').filter(|(before, _)| !before.contains('('));
+    let comma = comma.and_then(|(before, _)| decimal_comma(before, &text[before.len()..]));
+    Some(comma.unwrap_or_else(|| error.to_string()))
+}
+
 fn whole_refusal([least, most]: [i64; 2], value: &Value) -> Option<String> {
     if value.as_integer().is_some_and(|number| (least..=most).contains(&number)) {
         return None;
@@ -97,7 +105,10 @@ fn word_refusal(words: &[&str], value: &Value) -> Option<String> {
     match value.as_str() {
         None => Some(must_be(&all(), value)),
         Some(found) if words.contains(&found) => None,
-        Some(found) => Some(format!("must be {}; {}", all(), suggest(found, words.iter().copied()))),
+        Some(found) => {
+            let near = did_you_mean(found, words).map_or(String::new(), |near| format!("; {near}"));
+            Some(format!("must be {}{near}", all()))
+        }
     }
 }
 
@@ -108,9 +119,10 @@ impl ListForm {
         if least == most && list.len() != least {
             return Some(must_be(self.wanted, value));
         }
-        let entry = list.iter().enumerate().find_map(|(k, entry)| Some((k + 1, self.of.refusal(entry)?)));
-        if let Some((number, words)) = entry {
-            return Some(format!("entry {number}: {words}"));
+        let entry = |(k, entry): (usize, &Value)| Some(format!("entry {}: {}", k + 1, self.of.refusal(entry)?));
+        let wrong: Vec<String> = list.iter().enumerate().filter_map(entry).take(MOST_TOLD).collect();
+        if !wrong.is_empty() {
+            return Some(wrong.join("; "));
         }
         if list.len() < least {
             let made = || format!("must not be empty: give {}", self.wanted);

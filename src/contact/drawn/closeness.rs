@@ -39,8 +39,15 @@ pub struct ClosePair {
     pub bodies: [usize; 2],
     /// Least distance at which they face each other (length); where they overlap, the largest depth, negative.
     pub distance: f64,
-    /// Size of that distance as a share of the smaller body.
-    pub share: f64,
+    /// Size of the smaller body (length).
+    pub size: f64,
+}
+
+impl ClosePair {
+    /// The size of the distance as a share of the smaller body.
+    pub fn share(&self) -> f64 {
+        self.distance.abs() / self.size
+    }
 }
 
 /// A place of a side: where it is, its outward normal, and how far the next place is.
@@ -279,7 +286,7 @@ pub fn close_pairs(mesh: &MacroMesh, taken: &[[String; 2]]) -> Vec<ClosePair> {
             others.push(pair.sides);
             met.extend(bodies);
             let between = pair.sides.map(|side| boundaries[side].name.clone());
-            chosen.push(ClosePair { between, bodies: [first, second], distance: pair.distance, share: pair.share });
+            chosen.push(ClosePair { between, bodies: [first, second], distance: pair.distance, size });
         }
     }
     chosen

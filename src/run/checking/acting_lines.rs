@@ -4,16 +4,13 @@
 use super::drawing::acting;
 use super::proposals::short;
 use crate::case::Case;
-use crate::contact::{GapChoice, Pair, SmoothSide};
+use crate::contact::{GapChoice, Pair, drawn_gap};
 use crate::discretisation::Scene;
 use crate::element::Plane;
 use crate::geometry::Point;
 use crate::mesh::Numbering;
 use crate::output::plot::{BoundaryPoint, DrawnLoad, DrawnSupport, number_text};
 use crate::output::summary::{MOST_TOLD, lines_alike};
-
-/// Sides that are nearer than this share of their length are drawn touching.
-const TOUCHING: f64 = 1e-6;
 
 /// Of so many things of a kind is found what is said of them; a thousand gaps would take their time.
 const MOST_LOOKED_AT: usize = 100;
@@ -61,18 +58,10 @@ fn gap_words(scene: &Scene, numbering: &Numbering, pair: &Pair) -> String {
         GapChoice::Formula(gap) => return format!("a gap of {} is given", gap.text()),
         GapChoice::Geometry => {}
     }
-    let [first, second] = SmoothSide::of_pair(&scene.mesh, numbering, pair, &|_| Point::zeros());
-    let both = || first.iter().flat_map(|one| second.iter().map(move |other| (one, other)));
-    let length = both().map(|(one, other)| one.length().min(other.length())).fold(0.0, f64::max);
-    let gaps = |one: &SmoothSide, other: &SmoothSide| {
-        let gaps = |node: usize| one.facing_gaps(node, other, pair, TOUCHING * length).map(|gaps| gaps.at_rest);
-        (0..one.nodes()).filter_map(gaps).reduce(f64::min)
-    };
-    let least = both().flat_map(|(one, other)| [gaps(one, other), gaps(other, one)]).flatten().reduce(f64::min);
-    match least {
+    match drawn_gap(&scene.mesh, numbering, pair) {
         None => "its sides do not face each other as they are drawn".into(),
-        Some(gap) if gap.abs() <= TOUCHING * length => "its sides are drawn touching".into(),
-        Some(gap) if gap > 0.0 => format!("its sides are drawn {} apart", short(gap)),
-        Some(gap) => format!("its sides are drawn {} into each other, which presses", short(-gap)),
+        Some(gap) if gap.touches() => "its sides are drawn touching".into(),
+        Some(gap) if gap.least > 0.0 => format!("its sides are drawn {} apart", short(gap.least)),
+        Some(gap) => format!("its sides are drawn {} into each other, which presses", short(-gap.least)),
     }
 }

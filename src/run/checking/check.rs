@@ -13,8 +13,7 @@ use crate::run::outcome::RunError;
 use crate::run::reading::checks::check_pressures;
 use crate::run::reading::{origin, scene};
 use crate::run::telling::report::contact_lines;
-use crate::run::verdict::warnings::before::{far_turns, slits};
-use crate::run::verdict::warnings::idle::idle;
+use crate::run::verdict::warnings::before::{far_turns, idle, slits};
 use crate::run::{accuracy, memory};
 use std::path::Path;
 

@@ -2,12 +2,14 @@
 
 use crate::case::Case;
 use crate::case::error::dotted;
-use crate::contact::{ClosePair, Extent, Mechanism, close_pairs};
+use crate::contact::{ClosePair, Extent, Mechanism, close_pairs, drawn_gap};
+use crate::element::Order;
 use crate::geometry::Point;
-use crate::mesh::MacroMesh;
+use crate::mesh::{Level, MacroMesh, Numbering, Partition, Spot};
 use crate::procedure::Procedure;
 use crate::run::reading::scene;
 use std::path::Path;
+use std::rc::Rc;
 use toml::Value;
 
 /// Supports that are proposed at most: whoever lacks more has to think anyway.
@@ -15,6 +17,15 @@ const MOST_SUPPORTS: usize = 100;
 
 /// Boundaries that are proposed for a contact are nearer than this share of the smaller body.
 const CLOSE: f64 = 0.02;
+
+/// Of so many pairs is found how far apart they are drawn; a thousand would take their time.
+const MOST_MEASURED: usize = 100;
+
+/// Parts of an edge of the mesh between the places at which sides are compared.
+const PARTS: usize = 8;
+
+/// Those that are nearer than this share of it are drawn touching.
+const TOUCHING: f64 = 1e-6;
 
 /// A name as a TOML string.
 pub(crate) fn quoted(name: &str) -> String {
@@ -27,7 +38,7 @@ pub(crate) fn key(name: &str) -> String {
 }
 
 /// Names of tables, none twice.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct TableNames(Vec<String>);
 
 impl TableNames {
@@ -64,7 +75,7 @@ pub(crate) fn contact_table(pair: &ClosePair, names: &mut TableNames) -> String 
 /// How far apart a pair is drawn, as a comment.
 fn distance_words(pair: &ClosePair) -> String {
     match pair.distance {
-        _ if pair.share < 1e-6 => "   # they are drawn touching".into(),
+        _ if pair.share() < TOUCHING => "   # they are drawn touching".into(),
         apart if apart > 0.0 => format!("   # they are drawn {} apart", short(apart)),
         into => format!("   # they are drawn {} into each other", short(-into)),
     }
@@ -79,9 +90,28 @@ pub(crate) fn short(value: f64) -> String {
 /// that it has.
 pub(crate) fn proposed_contacts(case: &Case, mesh: &MacroMesh) -> Vec<String> {
     let taken: Vec<[String; 2]> = case.contacts.iter().map(|contact| contact.between.clone()).collect();
-    let mut names = TableNames::of(case.contacts.iter().map(|pair| pair.name.clone()));
-    let close = close_pairs(mesh, &taken);
-    close.iter().filter(|pair| pair.share <= CLOSE).map(|pair| contact_table(pair, &mut names)).collect()
+    let names = TableNames::of(case.contacts.iter().map(|pair| pair.name.clone()));
+    let mut close: Vec<ClosePair> = close_pairs(mesh, &taken).into_iter().filter(|pair| pair.share() <= CLOSE).collect();
+    let tables = |close: &[ClosePair], mut names: TableNames| close.iter().map(|pair| contact_table(pair, &mut names)).collect();
+    let drawn: Vec<String> = tables(&close, names.clone());
+    if let Ok(case) = Case::parse(&format!("{}\n{}", case.resolved(), drawn.join("\n")), &case.file, &[]) {
+        measure(&mut close, &case);
+    }
+    tables(&close, names)
+}
+
+/// Gives pairs the distances at which a case draws its contacts, curves taken as they are meant; where that cannot be told they keep
+/// those of their edges.
+pub(crate) fn measure(pairs: &mut [ClosePair], case: &Case) {
+    let Ok(mesh) = scene::read_mesh_file(case).and_then(|bytes| scene::read_mesh(case, &bytes)) else { return };
+    let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
+    let numbering = Numbering::new(Level { intervals: PARTS, order: Order::P1 }, &Rc::new(partition));
+    for pair in pairs.iter_mut().take(MOST_MEASURED) {
+        let contact = case.contacts.iter().find(|contact| contact.between.iter().all(|name| pair.between.contains(name)));
+        if let Some(gap) = contact.and_then(|contact| drawn_gap(&mesh, &numbering, contact)) {
+            pair.distance = if gap.touches() { 0.0 } else { gap.least };
+        }
+    }
 }
 
 /// Supports that would hold what can move though contact is closed everywhere, one after the other; none if all is held, or
@@ -201,10 +231,12 @@ fn support_for(
         let own = mesh.triangles.iter().filter(|triangle| triangle.piece as usize == motion.piece);
         vertices = own.flat_map(|triangle| triangle.vertices).collect();
     }
-    // The point that moves most.
+    // The point that moves most, of those that no other piece of the body has, too.
     let size = |x: &Point| (1e6 * motion.displacement(&extent, *x).amax()).round();
-    let places = vertices.into_iter().map(|vertex| mesh.vertices[vertex as usize]);
-    let place = places.reduce(|a, b| if size(&b) > size(&a) { b } else { a })?;
+    let mut places: Vec<Point> = vertices.into_iter().map(|vertex| mesh.vertices[vertex as usize]).collect();
+    places.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    let is_of_one = |x: &Point| mesh.piece_at(&Spot { place: [x.x, x.y], body: Some(name.clone()) }, |_| true).is_ok();
+    let place = places.into_iter().find(is_of_one)?;
     let component = ["ux", "uy"][motion.displacement(&extent, place).iamax()];
     let keys = if is_free { "ux = 0.0\nuy = 0.0\n".to_owned() } else { format!("{component} = 0.0\n") };
     let [x, y] = [place.x, place.y].map(|x| format!("{x:.9e}").parse::<f64>().unwrap_or(x));

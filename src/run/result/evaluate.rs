@@ -12,7 +12,7 @@ use crate::run::telling::progress;
 use crate::run::verdict::exact::compare;
 use crate::run::verdict::no_result::NO_NUMBERS;
 use crate::run::verdict::warnings::after::{apart, large_strains, loaded_points, slivers};
-use crate::run::verdict::warnings::idle::IDLE;
+use crate::run::verdict::warnings::before::{IDLE, TO_DRIVE};
 use crate::run::{Run, accuracy};
 use std::collections::BTreeMap;
 
@@ -40,6 +40,8 @@ impl Run<'_> {
         }
         if solved.is_idle(self.session) {
             (status, reason) = (Status::Converged, IDLE.into());
+        } else if status != Status::Converged && !solved.is_driven() {
+            reason = format!("{IDLE}, if they are held; {TO_DRIVE}");
         }
         let accuracy = adaptation.as_ref().map(accuracy::summarise);
         let summary = Summary { accuracy, status, ..summary };

@@ -19,6 +19,7 @@ fn a_number_with_a_comma_is_told() {
     for (text, words) in [
         ("[body.a]\nyoung = 7000,0\n", "line 2, column 13: a number has a dot, not a comma; write 7000.0; "),
         ("x = -0,25", "line 1, column 7: a number has a dot, not a comma; write 0.25; "),
+        ("x = 2,1e5", "line 1, column 6: a number has a dot, not a comma; write 2.1e5; "),
     ] {
         assert!(error_of(text, &[]).starts_with(words), "{}", error_of(text, &[]));
     }
@@ -221,6 +222,7 @@ fn errors_of_solver_output_and_probes_name_key_value_and_remedy() {
         ("units.forces=N", "unknown key; did you mean \"force\"?"),
         ("output.fields=no", "must be true or false, not of type string"),
         ("output.figures=[\"sigma_1\", \"sigma_3\"]", "entry 2: must be \"sigma_1\" or \"sigma_2\" or \"tau_max\""),
+        ("output.figures=[\"mises\", \"all\"]", "or \"sigma_zz\" or \"sigma_rr\" or \"sigma_tt\"; entry 2: must be"),
         ("output.figures=[\"sigma_tt\"]", "write \"sigma_xx\", and \"sigma_zz\" for the stress across the plane"),
         ("output.field=false", "unknown key; did you mean \"fields\"?"),
         ("probe.p.body=aa", "probe.p.body = \"aa\" (--set): no such body; did you mean \"a\"?"),

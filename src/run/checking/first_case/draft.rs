@@ -1,10 +1,9 @@
 //! The text of a first case.
 
 use super::guesses::{Guesses, POISSON, PRESSED, Press, Weight, YOUNG};
-use super::named_curve::{LOADED, MIRRORED, NamedCurve, PULLED};
+use super::named_curve::{LOADED, MIRRORED, PULLED};
 use super::node_circle::NodeCircle;
 use crate::contact::ClosePair;
-use crate::geometry::Point;
 use crate::run::checking::proposals::{MeanProposal, TableNames, contact_table, key, quoted, short};
 use std::fmt::Write;
 use std::path::Path;
@@ -151,7 +150,7 @@ order = 2
             let (name, own) = (tables.fresh(curve.name), quoted(curve.name));
             let _ = write!(text, "\n[support.{name}]       # a line of symmetry, by its name\non = {own}\nnormal = 0.0\n");
         }
-        if let Some(curve) = self.guesses.held() {
+        for curve in self.guesses.held() {
             let why = if curve.is_held() { "by its name" } else { "the lowest boundary that looks down" };
             let (name, own) = (tables.fresh(curve.name), quoted(curve.name));
             let _ = write!(text, "\n[support.{name}]       # held: {why}\non = {own}\nux = 0.0\nuy = 0.0\n");
@@ -176,8 +175,10 @@ order = 2
     }
 
     fn load(&self, text: &mut String, press: Press) {
-        let Some(curve) = self.guesses.pressed().filter(|_| press != Press::Nothing) else {
-            *text += &match (self.guesses.is_pressed_in(), self.guesses.pressed()) {
+        let (is_pressed_in, pressed) = (self.guesses.is_pressed_in(), self.guesses.pressed());
+        let Some(curve) = pressed.filter(|_| press != Press::Nothing && !is_pressed_in) else {
+            let on = pressed.map_or("boundary", |curve| curve.name);
+            *text += &match (is_pressed_in, pressed) {
                 (true, _) => {
                     "\n# Bodies are drawn into each other: that interference is the load. A further one is written so:\n".into()
                 }
@@ -187,14 +188,17 @@ order = 2
                 ),
                 (_, None) => "\n# Nothing presses yet. A load is written so:\n".to_owned(),
             };
-            *text += "# [load.NAME]\n# on = \"boundary\"\n# pressure = 1.0\n# or, all over a body, as a line of its table:\n# body_force = [0.0, -1.0]\n";
+            let table = format!("# [load.NAME]\n# on = {}\n# pressure = 1.0\n", quoted(on));
+            *text += &(table + "# or, all over a body, as a line of its table:\n# body_force = [0.0, -1.0]\n");
             return;
         };
-        let (direction, guided) = push(curve);
+        let direction = self.guesses.push(curve);
+        let guided = if direction.x == 0.0 { "ux" } else { "uy" };
         let sense = self.guesses.sense(curve, direction);
         let what = if sense < 0.0 { "pulled" } else { "pressed" };
         let why = match curve {
             _ if sense < 0.0 && !curve.has(PULLED) => "a push would open every contact of its body",
+            _ if curve.is_held() => "its name says that it is held, but then nothing would act",
             _ if curve.has(LOADED) => "by its name",
             _ => "the highest boundary that looks up",
         };
@@ -254,14 +258,5 @@ angle = 0.0               # and does not turn
         if curves.len() > MOST_NAMED {
             let _ = writeln!(text, "#   and {} more", curves.len() - MOST_NAMED);
         }
-    }
-}
-
-/// The axis along which a boundary is pushed, and the component along which its plate is guided.
-fn push(curve: &NamedCurve) -> (Point, &'static str) {
-    match curve.normal {
-        n if n.x.abs() > 2.0 * n.y.abs() => (Point::new(-n.x.signum(), 0.0), "uy"),
-        n if n.y < 0.0 => (Point::new(0.0, 1.0), "ux"),
-        _ => (Point::new(0.0, -1.0), "ux"),
     }
 }

@@ -25,7 +25,7 @@ const LEVEL: f64 = 1e-6;
 /// Bodies that reach into each other by more than this share of the smaller one are meant to.
 const DRAWN: f64 = 1e-6;
 
-/// A load opens a contact whose mean normal is against it by more than this.
+/// A load opens a contact whose mean normal is against it by more than this; a shorter mean normal says nothing.
 const AWAY: f64 = 0.1;
 
 /// How the example presses.
@@ -83,17 +83,27 @@ impl<'a> Guesses<'a> {
         self.curves.iter().filter(|curve| !curve.is_touched && !curve.has(MIRRORED))
     }
 
-    /// The boundary that is held: by its name, or because it is the lowest and looks down.
-    pub fn held(&self) -> Option<&NamedCurve<'a>> {
-        let rank = |curve: &&NamedCurve| (curve.is_held(), curve.normal.y < -ALONG, -curve.low.y);
-        let likely = self.free().filter(|curve| curve.is_held() || curve.normal.y < -ALONG);
-        likely.max_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal))
+    /// The boundaries that are held: of each body one that says so by its name, or else the lowest of all that look down. Where that would
+    /// be all bodies, and none is drawn into another, nothing would act: the highest is left to a load then.
+    pub fn held(&self) -> Vec<&NamedCurve<'a>> {
+        let rank = |curve: &&NamedCurve| (curve.normal.y < -ALONG, -curve.low.y);
+        let likeliest = |a: &&NamedCurve, b: &&NamedCurve| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal);
+        let by_name = |body: usize| self.free().filter(|curve| curve.body == body && curve.is_held()).max_by(likeliest);
+        let mut held: Vec<&NamedCurve> = (0..self.mesh.bodies.len()).filter_map(by_name).collect();
+        if held.is_empty() {
+            held.extend(self.free().filter(|curve| curve.normal.y < -ALONG).max_by(likeliest));
+        }
+        if held.len() > 1 && held.len() == self.mesh.bodies.len() && !self.is_pressed_in() {
+            held.sort_by(|a, b| a.low.y.total_cmp(&b.low.y));
+            held.pop();
+        }
+        held
     }
 
     /// Where no boundary is held, but bodies may touch: the lowest body, of those that reach as low the largest, and which of its
     /// mean motions are held, so that the others rest on it.
     pub fn foundation(&self) -> Option<(usize, [bool; 3])> {
-        if self.pairs.is_empty() || self.held().is_some() {
+        if self.pairs.is_empty() || !self.held().is_empty() {
             return None;
         }
         let low = |body: usize| self.ends(body)[0];
@@ -115,29 +125,47 @@ impl<'a> Guesses<'a> {
         (is_whole && motions.contains(&true)).then_some(motions)
     }
 
-    /// The boundary that is pressed: by its name, or because it is the highest and looks up; on another body, if there is one.
+    /// Bodies that are held as a whole, by a boundary or by their mean motion.
+    fn bases(&self) -> Vec<usize> {
+        self.held().iter().map(|held| held.body).chain(self.foundation().map(|(body, _)| body)).collect()
+    }
+
+    /// The boundary that is pressed: by its name, or because it is the highest and looks up; on a body that is not held, if there is one.
+    /// That of a body that is drawn into another is an example alone: what presses is the interference.
     pub fn pressed(&self) -> Option<&NamedCurve<'a>> {
-        let held = self.held();
-        let other = |curve: &&NamedCurve| match held {
-            Some(held) => curve.name != held.name && (curve.body != held.body || self.mesh.bodies.len() == 1),
-            None => self.foundation().is_none_or(|(body, _)| body != curve.body),
-        };
-        let rank = |curve: &&NamedCurve| (curve.has(LOADED), curve.normal.y > ALONG, curve.high.y);
-        let likely = self.free().filter(other).filter(|curve| curve.has(LOADED) || curve.normal.y > ALONG && !curve.is_held());
-        // Bodies that are drawn into each other are loaded by that, unless a name says otherwise.
-        let likely = likely.filter(|curve| curve.has(LOADED) || !self.is_pressed_in());
+        let (bases, held, is_alone) = (self.bases(), self.held(), self.mesh.bodies.len() == 1);
+        let is_held = |curve: &NamedCurve| held.iter().any(|held| held.name == curve.name);
+        let other = |curve: &&NamedCurve| !bases.contains(&curve.body) || is_alone && !is_held(curve);
+        let rank = |curve: &&NamedCurve| (curve.has(LOADED) || curve.is_held(), curve.normal.y > ALONG, curve.high.y);
+        let likely = self.free().filter(other);
+        let likely = likely.filter(|curve| curve.has(LOADED) || curve.is_held() || curve.normal.y > ALONG);
         let best = likely.max_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal));
         best.filter(|curve| curve.is_of_one_piece)
     }
 
     /// Whether bodies are drawn into each other: that interference is the load.
     pub fn is_pressed_in(&self) -> bool {
-        let circle = |name: &String| self.curves.iter().find(|curve| curve.name == name)?.circle.as_ref();
-        let reaches = |pair: &ClosePair| match pair.between.each_ref().map(circle) {
-            [Some(one), Some(other)] => one.reaches_into(other),
-            _ => pair.distance < 0.0 && pair.share > DRAWN,
+        self.pairs.iter().any(|pair| pair.distance < 0.0 && pair.share() > DRAWN)
+    }
+
+    /// The axis along which a boundary is pushed: against its normal, or, if no contact of its body would feel that, into these; down if it
+    /// has no mean normal, as a hole.
+    pub fn push(&self, curve: &NamedCurve) -> Point {
+        let axis = |n: Point| match n {
+            n if n.norm() < AWAY => None,
+            n if n.x.abs() > 2.0 * n.y.abs() => Some(Point::new(n.x.signum(), 0.0)),
+            n => Some(Point::new(0.0, n.y.signum())),
         };
-        self.pairs.iter().any(reaches)
+        let touched = || self.curves.iter().filter(|other| other.body == curve.body && other.is_touched);
+        let own = axis(-curve.normal).unwrap_or(Point::new(0.0, -1.0));
+        let is_felt = touched().next().is_none() || touched().any(|other| other.normal.dot(&own).abs() > AWAY);
+        let into = || {
+            axis(
+                touched().map(|other| other.length * other.normal).sum::<Point>()
+                    / touched().map(|other| other.length).sum::<f64>(),
+            )
+        };
+        if is_felt { own } else { into().unwrap_or(own) }
     }
 
     /// What a boundary is loaded along (1), or against (-1), if a push onto it is along a direction: one that is pulled by its name is,
@@ -154,9 +182,10 @@ impl<'a> Guesses<'a> {
         if self.is_pressed_in() {
             return Vec::new();
         }
-        let Some(base) = self.held().map(|held| held.body).or_else(|| self.foundation().map(|(body, _)| body)) else {
+        let bases = self.bases();
+        if bases.is_empty() {
             return Vec::new();
-        };
+        }
         let pressed = self.pressed().map(|curve| curve.body);
         let middle = |body: usize| self.ends(body).iter().sum::<f64>();
         let is_higher =
@@ -164,9 +193,9 @@ impl<'a> Guesses<'a> {
         let rests = |&body: &usize| {
             let mut partners =
                 self.pairs.iter().filter(|pair| pair.bodies.contains(&body)).flat_map(|pair| pair.bodies).peekable();
-            partners.peek().is_some() && !partners.any(|other| other != base && is_higher(body, other))
+            partners.peek().is_some() && !partners.any(|other| !bases.contains(&other) && is_higher(body, other))
         };
-        let loose = (0..self.mesh.bodies.len()).filter(|&body| body != base && Some(body) != pressed).filter(rests);
+        let loose = (0..self.mesh.bodies.len()).filter(|&body| !bases.contains(&body) && Some(body) != pressed).filter(rests);
         loose
             .map(|body| Weight {
                 body,
@@ -206,7 +235,7 @@ fn close_outlines(mesh: &MacroMesh) -> Vec<[usize; 2]> {
         Boundary { name: mesh.bodies[body].clone(), edges, is_union: false }
     };
     let outlines = MacroMesh { boundaries: (0..mesh.bodies.len()).map(outline).collect(), ..mesh.clone() };
-    close_pairs(&outlines, &[]).into_iter().filter(|pair| pair.share <= NEAR).map(|pair| pair.bodies).collect()
+    close_pairs(&outlines, &[]).into_iter().filter(|pair| pair.share() <= NEAR).map(|pair| pair.bodies).collect()
 }
 
 /// A number of one digit, for an example.

@@ -12,7 +12,7 @@ use crate::case::{Case, CaseError};
 use crate::contact::Pair;
 use crate::mesh::{parse_joined, read_bytes, touching_surfaces};
 use crate::run::checking::check::check;
-use crate::run::checking::proposals::{TableNames, key, proposed_supports, quoted};
+use crate::run::checking::proposals::{TableNames, key, measure, proposed_supports, quoted};
 use crate::run::outcome::RunError;
 use draft::Draft;
 use guesses::{Guesses, Press};
@@ -42,6 +42,9 @@ pub fn first_case(mesh_file: &Path, named: &str) -> Result<FirstCase, RunError> 
     let place = std::path::absolute(mesh_file).unwrap_or_else(|_| mesh_file.to_path_buf());
     let file = place.with_file_name("case.toml");
     let parse = |text: &str| Case::parse(text, &file, &[format!("mesh.file={}", quoted(&place.to_string_lossy()))]);
+    if let Ok(case) = parse(&draft.text(named, Press::Nothing)) {
+        measure(&mut draft.guesses.pairs, &case);
+    }
     // The first way of pressing that can be is taken; the last presses nothing. If none can be, the first is told with its words.
     let mut failed = None;
     for press in [Press::Plate, Press::Pressure, Press::Nothing] {

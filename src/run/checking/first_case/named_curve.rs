@@ -15,7 +15,7 @@ pub const MIRRORED: &str = "symmetry sym symm mirror";
 /// Last words in names of holes that are held. Before other words they name the body: `hub.outside` is free.
 const BORES: [&str; 5] = ["bore", "axle", "axis", "hub", "shaft"];
 
-/// Words of so many letters at least are known at the beginning of a longer one, too: `clampleft`.
+/// Words of so many letters at least are known at the beginning and at the end of a longer one, too: `clampleft`, `leftclamp`.
 const LONG: usize = 5;
 
 /// A boundary looks along an axis if its mean normal has this component at least.
@@ -65,7 +65,8 @@ impl<'a> NamedCurve<'a> {
 
     /// Whether its name has one of some words, in any case, with a number behind it or not.
     pub fn has(&self, words: &str) -> bool {
-        let is_known = |own: &String, word: &str| own == word || word.len() >= LONG && own.starts_with(word);
+        let is_known =
+            |own: &String, word: &str| own == word || word.len() >= LONG && (own.starts_with(word) || own.ends_with(word));
         self.words().iter().any(|own| words.split(' ').any(|word| is_known(own, word)))
     }
 
@@ -95,7 +96,9 @@ mod tests {
 
     #[test]
     fn words_are_known_in_any_case_and_with_others_around_them() {
-        for name in ["root", "Lever.Root", "gripLeft", "GRIP_2", "clampleft", "wheel axle", "hub", "gear.bore1", "base-3"] {
+        for name in
+            ["root", "Lever.Root", "gripLeft", "GRIP_2", "clampleft", "leftclamp", "wheel axle", "hub", "gear.bore1", "base-3"]
+        {
             assert!(named(name).is_held(), "{name}");
         }
         for name in ["hub.outside", "basalt", "seam", "routed", "axle.left flank"] {

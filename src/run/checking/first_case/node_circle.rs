@@ -10,16 +10,11 @@ const OFF: f64 = 1e-6;
 /// Edges at least.
 const LEAST_EDGES: usize = 3;
 
-/// Circles are about one centre if theirs are nearer to each other than this share of a radius.
-const CONCENTRIC: f64 = 1e-3;
-
 /// A circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeCircle {
     pub centre: Point,
     pub radius: f64,
-    /// Whether the body lies outside of it.
-    pub is_hole: bool,
 }
 
 impl NodeCircle {
@@ -44,15 +39,7 @@ impl NodeCircle {
             let [a, b] = ends(edge);
             2.0 * (0.5 * (b - a).norm() / radius).min(1.0).asin()
         };
-        let is_hole = mesh.edge_normal(edges[0], 0.5).dot(&(first - centre)) < 0.0;
-        (is_on && edges.iter().all(|&edge| angle(edge) <= WIDEST_TURN)).then_some(Self { centre, radius, is_hole })
-    }
-
-    /// Whether it is drawn into another one about the same centre, of which one is a hole.
-    pub fn reaches_into(&self, other: &Self) -> bool {
-        let (hole, pin) = if self.is_hole { (self, other) } else { (other, self) };
-        let is_inside = hole.is_hole && !pin.is_hole && (hole.centre - pin.centre).norm() <= CONCENTRIC * hole.radius;
-        is_inside && pin.radius > (1.0 + OFF) * hole.radius
+        (is_on && edges.iter().all(|&edge| angle(edge) <= WIDEST_TURN)).then_some(Self { centre, radius })
     }
 }
 
@@ -75,17 +62,7 @@ mod tests {
         let found = |mesh: &MacroMesh| NodeCircle::through(mesh, &mesh.boundaries[0].edges);
         let circle = found(&fan(16)).expect("16 edges of 22.5 degrees");
         assert!((circle.centre - Point::new(3.0, -1.0)).norm() < 1e-12 && (circle.radius - 2.0).abs() < 1e-12, "{circle:?}");
-        assert!(!circle.is_hole, "the fan is a disc");
         assert_eq!(found(&fan(8)), None, "an octagon");
         assert_eq!(found(&columns(5, 1.0)), None);
-    }
-
-    #[test]
-    fn a_pin_that_is_too_large_for_its_hole_reaches_into_it() {
-        let circle = |radius, is_hole, x| NodeCircle { centre: Point::new(x, 0.0), radius, is_hole };
-        let hole = circle(1.0, true, 0.0);
-        let pins = [circle(1.001, false, 0.0), circle(1.0, false, 0.0), circle(1.001, true, 0.0), circle(1.001, false, 0.1)];
-        assert_eq!(pins.map(|pin| hole.reaches_into(&pin)), [true, false, false, false]);
-        assert!(pins[0].reaches_into(&hole));
     }
 }

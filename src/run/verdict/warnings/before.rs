@@ -2,11 +2,22 @@
 
 use crate::body::{BodyPart, RigidSet};
 use crate::case::Case;
-use crate::discretisation::{Contact, Scene};
+use crate::discretisation::{Contact, Scene, is_driven};
 use crate::element::Order;
-use crate::mesh::{MacroMesh, Slit};
+use crate::mesh::{MacroMesh, Numbering, Slit};
 use crate::run::verdict::limits::{P1_STIFF, ROTATION};
 use crate::run::words::short;
+
+/// What is said of a scene in which nothing acts.
+pub const IDLE: &str = "nothing loads, moves or presses the bodies, so that they stay as they are drawn";
+
+/// What would act.
+pub const TO_DRIVE: &str = "give a load, a support that moves, heat, or a negative gap";
+
+/// A sentence for a scene in which nothing acts.
+pub fn idle(scene: &Scene, numbering: &Numbering) -> Option<String> {
+    (!is_driven(scene, numbering)).then(|| format!("{IDLE}; {TO_DRIVE}"))
+}
 
 /// A sentence for each body of whose boundary edges some lie on each other.
 pub fn slits(mesh: &MacroMesh) -> Vec<String> {

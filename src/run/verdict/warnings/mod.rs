@@ -2,4 +2,3 @@
 
 pub(crate) mod after;
 pub(crate) mod before;
-pub(crate) mod idle;

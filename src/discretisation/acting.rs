@@ -1,21 +1,18 @@
-//! What is said of a scene in which nothing happens.
+//! Whether anything acts in a scene.
 
+use super::Scene;
 use crate::body::LoadKind;
-use crate::contact::{GapChoice, Pair, SmoothSide};
-use crate::discretisation::Scene;
-use crate::geometry::{Formula, Point};
+use crate::contact::{GapChoice, Law, Pair, drawn_gap};
+use crate::geometry::Formula;
 use crate::mesh::Numbering;
 
-/// Sides that reach into each other by less than this share of their length do so by rounding.
-const DRAWN: f64 = 1e-9;
+/// Sides that reach into each other by less than this share of the shorter one do so by rounding, and so do bodies move by less than
+/// this share of the largest.
+pub const BY_ROUNDING: f64 = 1e-9;
 
-/// How it is said.
-pub const IDLE: &str = "nothing loads, moves or presses the bodies, so that they stay as they are drawn";
-
-/// A warning for a scene without loads, prescribed motions, heat and interference. All edges are on this rank.
-pub fn idle(scene: &Scene, numbering: &Numbering) -> Option<String> {
-    let is_driven = is_loaded(scene) || is_moved(scene) || scene.pairs.iter().any(|pair| interferes(scene, numbering, pair));
-    (!is_driven).then(|| format!("{IDLE}; give a load, a support that moves, heat, or a negative gap"))
+/// Whether a scene has loads, prescribed motions, heat or interference. Without them its bodies stay as they are drawn.
+pub fn is_driven(scene: &Scene, numbering: &Numbering) -> bool {
+    is_loaded(scene) || is_moved(scene) || scene.pairs.iter().any(|pair| interferes(scene, numbering, pair))
 }
 
 fn acts(formula: &Formula) -> bool {
@@ -46,14 +43,11 @@ fn is_moved(scene: &Scene) -> bool {
 fn interferes(scene: &Scene, numbering: &Numbering, pair: &Pair) -> bool {
     match &pair.gap {
         GapChoice::Closed => false,
-        GapChoice::Formula(gap) => gap.as_constant().is_none_or(|gap| gap < 0.0),
-        GapChoice::Geometry => {
-            let [first, second] = SmoothSide::of_pair(&scene.mesh, numbering, pair, &|_| Point::zeros());
-            let reaches = |side: &SmoothSide, other: &SmoothSide| {
-                let least = DRAWN * side.length().max(other.length());
-                (0..side.nodes()).any(|node| side.facing_gaps(node, other, pair, least).is_some_and(|gaps| gaps.at_rest < -least))
-            };
-            first.iter().any(|side| second.iter().any(|other| reaches(side, other)))
-        }
+        GapChoice::Formula(gap) => gap.as_constant().is_none_or(|gap| gap < 0.0 || pair.law == Law::Bilateral && gap > 0.0),
+        // Of sides that do not face each other it is not known.
+        GapChoice::Geometry => drawn_gap(&scene.mesh, numbering, pair).is_none_or(|gap| {
+            let size = if pair.law == Law::Bilateral { gap.least.abs() } else { -gap.least };
+            size > BY_ROUNDING * gap.length
+        }),
     }
 }
