@@ -111,7 +111,7 @@ mod tests {
             let mut row = PointRow::new(points.clone());
             prop_assert_eq!(row.nearest(p), exact);
             // Whole numbers stay exact.
-            let by = Point::new(by.round(), -by.round());
+            let by = Point::new(f64::round(by), -f64::round(by));
             row.shift(by);
             prop_assert_eq!(row.nearest(p + by), exact);
         }

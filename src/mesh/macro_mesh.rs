@@ -249,21 +249,23 @@ impl MacroMesh {
         place: FilePlace,
         placed: &mut HashSet<(usize, u32)>,
     ) -> Result<(), MeshError> {
-        let refused = |what: &str| {
+        let refused = |what: &str, remedy: &str| {
             let curve = Quote(&name);
-            let words =
-                format!("a line of the physical curve \"{curve}\" {what}; physical curves must bound bodies, or parts of them");
+            let words = format!(
+                "a line of the physical curve \"{curve}\" {what}; physical curves must bound bodies, or parts of them{remedy}"
+            );
             self.syntax(place, words)
         };
-        let Some(edge) = edge else { return Err(refused("is not an edge of a triangle")) };
+        let tool = "the curve of a rigid tool needs no mesh: leave it out, and write [rigid.NAME] with line = [[x, y], ...] or circle into the case";
+        let Some(edge) = edge else { return Err(refused("is not an edge of a triangle", &format!("; {tool}"))) };
         let parts = self.edges[edge as usize].triangles.map(|beside| beside.map(|k| self.triangles[k as usize].part));
         if parts[0] == parts[1] {
-            return Err(refused("lies inside a body"));
+            return Err(refused("lies inside a body", ""));
         }
         let (same_kind, other_kind) =
             if parts[1].is_none() { (&self.boundaries, &self.interfaces) } else { (&self.interfaces, &self.boundaries) };
         if other_kind.iter().any(|curve| curve.name == name) {
-            return Err(refused("lies between parts of a body while others bound one: name them apart"));
+            return Err(refused("lies between parts of a body while others bound one: name them apart", ""));
         }
         let at = same_kind.iter().position(|curve| curve.name == name);
         let curves = if parts[1].is_none() { &mut self.boundaries } else { &mut self.interfaces };

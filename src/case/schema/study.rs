@@ -28,7 +28,7 @@ declare! {
     const COLUMNS: Value = key("columns", of(PATHS.value));
     /// A figure of one column against another: what is across, what is up, and, if there are three, by what lines are told apart. A
     /// column is named by a key of a grid, a path in `summary.json`, `"curve"`, `"ranks"`, `"unknowns"`, or the last part of such a
-    /// name.
+    /// name; `"force"` or `"pressure_max"` is that of the only contact.
     const FIGURE: Vec<String> = key("figure", FIGURE_COLUMNS);
     /// Keys of the case that are set in every run.
     const SET: Table = key("set", of(ValueForm::CaseKeys));

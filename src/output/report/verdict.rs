@@ -20,15 +20,21 @@ pub fn word(status: Status) -> &'static str {
 pub fn verdict(page: &ReportPage) -> String {
     let summary = page.summary;
     let reason = clauses(summary.reason.as_deref().unwrap_or_default());
-    let rest = if reason.is_empty() { String::new() } else { format!("<p>{}.</p>\n", escape(&capital(&reason.join("; ")))) };
+    let line = |clause: &&str| format!("<li>{}</li>\n", escape(clause));
+    let rest = match &reason[..] {
+        [] => String::new(),
+        [one] => format!("<p>{}.</p>\n", escape(&capital(one))),
+        all => format!("<ul>\n{}</ul>\n", all.iter().map(line).collect::<String>()),
+    };
     let class = match summary.status {
         Status::Converged if doubtful(summary).iter().all(Vec::is_empty) => "good",
         Status::Converged => "open",
         _ => "bad",
     };
+    let doubt = if class == "open" && !doubtful(summary)[0].is_empty() { ", not trusted" } else { "" };
     let (word, sentence) = (word(summary.status), escape(&sentence(summary)));
     let tables = expected(page.expected) + &goals(summary);
-    format!("<div class=\"verdict {class}\">\n<strong>{word}</strong>\n<p>{sentence}</p>\n</div>\n{rest}{tables}")
+    format!("<div class=\"verdict {class}\">\n<strong>{word}{doubt}</strong>\n<p>{sentence}</p>\n</div>\n{rest}{tables}")
 }
 
 /// Contacts whose pressures cannot be trusted, and those of which nothing tells.

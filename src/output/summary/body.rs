@@ -52,9 +52,10 @@ impl Summary {
         let told: Vec<String> = all.iter().take(WORST).map(one).collect();
         let of = if all.len() > WORST { format!(" of {} bodies", all.len()) } else { String::new() };
         let doubted = all.iter().filter(|(_, body, _)| !body.is_believed).count();
-        let others = match all.len() > WORST {
-            true => format!("; the others have less, and {doubted} of all cannot be believed"),
-            false => String::new(),
+        let others = match (all.len() > WORST, doubted) {
+            (false, _) => String::new(),
+            (true, 0) => "; the others have less".into(),
+            (true, doubted) => format!("; the others have less, and {doubted} of all cannot be believed"),
         };
         (!told.is_empty()).then(|| format!("largest von Mises stress{of}: {}{others}", told.join("; ")))
     }

@@ -132,7 +132,9 @@ impl Summary {
             Some(format!("{name} (force {force:.4e}{unit}, {:.2} of the largest; {verdict})", force.abs() / largest))
         };
         let worst: Vec<String> = self.worst_first().iter().take(WORST).filter_map(one).collect();
-        Some(format!("{count} contacts: {}; the worst {WORST}: {}", kinds.join(", "), worst.join(", ")))
+        let is_good = self.contact.values().all(|contact| contact.judged.trust == Some(true));
+        let which = if is_good { "largest" } else { "worst" };
+        Some(format!("{count} contacts: {}; the {which} {WORST}: {}", kinds.join(", "), worst.join(", ")))
     }
 
     fn sorted(&self, order: impl Fn(&ContactSummary, &ContactSummary) -> Ordering) -> Vec<&str> {

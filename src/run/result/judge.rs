@@ -64,9 +64,9 @@ pub fn remarks(summary: &Summary) -> String {
     let words = summary.contact.values().find_map(verdict).unwrap_or_default();
     match summary.named(|contact| verdict(contact).is_some())[..] {
         [] => {}
-        [name] => remarks += &format!("; contact {name} {words}"),
+        [name] => remarks += &format!("; contact {name} {}", words.replace("; ", " and ")),
         ref names => {
-            let words = words.replace("touches", "touch").replace("carries", "carry");
+            let words = words.replace("touches; carries", "touch and carry");
             remarks += &format!("; {} contacts {words} ({})", names.len(), listed(names));
         }
     }

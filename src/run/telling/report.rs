@@ -207,7 +207,7 @@ impl Report {
             },
             Status::NotConverged | Status::Unresolved | Status::Interrupted => {
                 let words = if summary.status == Status::Unresolved { "resolved" } else { "converged" };
-                let words = format!("mezha: NOT {words}: {reason}");
+                let words = format!("mezha: NOT {words}: {}", clauses(reason).join("\n    "));
                 if self.first && !self.speaks {
                     let _ = progress::aside(|| writeln!(std::io::stderr(), "{words}"));
                 }

@@ -1,11 +1,14 @@
 //! The figure that a study asks for, by names of columns.
 
-use super::summary_path::SummaryPath;
+use super::summary_path::{ONLY, SummaryPath};
 use crate::case::listed;
 use crate::case::section::Section;
 
 /// Columns of every study.
 const WORDS: [&str; 7] = ["case", "curve", "ranks", "unknowns", "multipliers", "krylov_iterations", "outer_iterations"];
+
+/// Figures of a contact, which mean those of the only contact of a case.
+const OF_CONTACT: [&str; 5] = ["force", "pressure_max", "approach", "slip", "oscillation"];
 
 /// Whole names of the columns that `figure` means; those that are places in `summary.json` join `columns`, beside `others` that the
 /// study asks for. Empty if the log knows what is wrong.
@@ -37,6 +40,7 @@ fn column(name: &str, known: &[&str], places: &[SummaryPath]) -> Result<String, 
         _ if all().any(|other| other == name) => Ok(name.into()),
         [one] => Ok(one.into()),
         [] if name.contains('.') => SummaryPath::parse(name).map(|place| place.text),
+        [] if OF_CONTACT.contains(&name) => Ok(SummaryPath::new(&["contact", ONLY, name]).text),
         [] => {
             Err(format!("there is no column {name}; there are {}, and any path in summary.json", listed(all().map(String::from))))
         }

@@ -6,6 +6,9 @@ use crate::case::error::dotted;
 use crate::case::overrides::read_key;
 use crate::case::values;
 
+/// The only entry of a table, whatever its name.
+pub const ONLY: &str = "*";
+
 /// A dotted path such as `errors.energy`, `contact."a.b".force` or `probe.tip.u.0`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SummaryPath {
@@ -39,7 +42,7 @@ impl SummaryPath {
         Self { text: dotted(&names), names }
     }
 
-    /// What stands there; null if nothing does. A number is a place in a list, from 0.
+    /// What stands there; null if nothing does. A number is a place in a list, from 0, and `*` the only entry of a table.
     pub fn of(&self, summary: &Value) -> Value {
         self.names.iter().try_fold(summary, |value, name| step(value, name)).cloned().unwrap_or(Value::Null)
     }
@@ -49,6 +52,7 @@ impl SummaryPath {
 fn step<'a>(value: &'a Value, name: &str) -> Option<&'a Value> {
     match value {
         Value::Array(list) => list.get(name.parse::<usize>().ok()?),
+        Value::Object(table) if name == ONLY && table.len() == 1 => table.values().next(),
         other => other.get(name),
     }
 }
@@ -69,6 +73,7 @@ mod tests {
             ("probe.tip.u", json!([3, 4])),
             ("probe.tip.u.2", Value::Null),
             ("probe.tip.u.x", Value::Null),
+            ("contact.\"*\".force", json!(2)),
             ("errors.energy.value", Value::Null),
             ("nothing", Value::Null),
         ];

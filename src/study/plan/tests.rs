@@ -83,6 +83,8 @@ fn columns_of_a_figure_are_named_in_whole_or_by_their_last_part() {
         ("probe.tip.u.1", "probe.tip.u.1"),
         "it becomes a column"
     );
+    let plan = parse(&with("['young', 'force']")).unwrap();
+    assert_eq!(plan.columns[1].text, "contact.\"*\".force", "that of the only contact");
     let refused = |figure: &str| only_error(&with(figure));
     assert!(refused("['young', 'presure_max']").contains("there is no column presure_max; there are "));
     assert!(refused("['young']").contains("two or three names of columns"));

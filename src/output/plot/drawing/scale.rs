@@ -52,7 +52,13 @@ impl Axis {
         if self.falling {
             range.reverse();
         }
-        Scale { is_logarithmic: self.logarithmic, range, ticks, name: self.name.clone(), after: String::new() }
+        // A power of ten stands before the unit, if there is one.
+        let name = match (ticks.power(), self.name.rsplit_once(" [")) {
+            (None, _) => self.name.clone(),
+            (Some(power), Some((name, unit))) => format!("{name} [{power} {unit}"),
+            (Some(power), None) => format!("{} [{power}]", self.name),
+        };
+        Scale { is_logarithmic: self.logarithmic, range, ticks, name, after: String::new() }
     }
 }
 
@@ -124,6 +130,12 @@ mod tests {
         assert!(around(true) == [-9.0, 103.0] && around(false)[0] == 0.0);
         let [low, high] = Axis { fits: true, ..Axis::default() }.around([5.0].into_iter()).range;
         assert!(low < 5.0 && high > 5.0, "one value is inside");
+    }
+
+    #[test]
+    fn a_power_of_ten_of_the_labels_is_told() {
+        let name = |name: &str, most: f64| Axis { name: name.into(), ..Axis::default() }.around([0.0, most].into_iter()).name;
+        assert_eq!([name("young", 2e5), name("force [N]", 2e-4), name("step", 4.0)], ["young [10⁵]", "force [10⁻⁴ N]", "step"]);
     }
 
     #[test]

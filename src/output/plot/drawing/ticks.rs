@@ -50,12 +50,14 @@ impl Ticks {
         Ticks { labels: values.into_iter().map(|value| (value, label(value))).collect(), exponent: 0 }
     }
 
+    /// The power of ten that the labels are in units of: `10⁻⁴`; nothing if it is one.
+    pub fn power(&self) -> Option<String> {
+        (self.exponent != 0).then(|| power_of_ten(self.exponent))
+    }
+
     /// The unit of the labels: `mm`, or `10⁻⁴ mm`.
     pub fn unit(&self, unit: Unit) -> String {
-        match self.exponent {
-            0 => unit.words(),
-            exponent => unit.times(&power_of_ten(exponent)),
-        }
+        self.power().map_or_else(|| unit.words(), |power| unit.times(&power))
     }
 }
 

@@ -42,7 +42,7 @@ impl SceneFigure {
         plot.bodies(self);
         plot.supports(self);
         plot.loads(self);
-        plot.names(self, list.is_there());
+        plot.names(self);
         Some(plot.canvas.svg())
     }
 

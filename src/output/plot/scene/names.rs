@@ -9,12 +9,17 @@ use crate::output::summary::{MOST_TOLD, alike};
 /// Of more things than can be named about so many are.
 const FEW_NAMES: usize = 6;
 
+/// What contacts are called together.
+const CONTACTS: &str = "contacts";
+
 /// A name, its colour, what it names, and where it would rather stand.
 type WantedName = (String, Colour, [f64; 2], Wish);
 
 impl ScenePlot {
-    /// Names: of bodies first, then of what was asked for, then of all boundaries, whose ends are marked.
-    pub fn names(&mut self, figure: &SceneFigure, has_list: bool) {
+    /// Names: of bodies first, then of what was asked for, then of all boundaries, whose ends are marked. Of more contacts than are told one
+    /// by one the numbers, in the order of the case.
+    pub fn names(&mut self, figure: &SceneFigure) {
+        let has_numbers = figure.contacts.len() > MOST_TOLD;
         let radius = 1.8 * size_of_marks(figure.boundaries.len());
         for row in figure.boundaries.iter().flat_map(|boundary| &boundary.rows) {
             for end in [row.first(), row.last()].into_iter().flatten() {
@@ -29,7 +34,7 @@ impl ScenePlot {
         let of_contact = |(number, contact): (usize, &NamedRows)| {
             let place = contact.place.map(|point| (self.chart.place(point.place), flipped(point.normal)));
             let (anchor, [x, y]) = place.or_else(|| self.middle(&contact.rows, 0.5))?;
-            let name = if has_list { (number + 1).to_string() } else { format!("contact {}", contact.name) };
+            let name = if has_numbers { (number + 1).to_string() } else { format!("contact {}", contact.name) };
             Some((name, contact_colour(number), anchor, Wish::Towards([-x, -y])))
         };
         let of_support = |(name, support): (String, &DrawnSupport)| beside(&name, GREEN, &support.rows, 0.5);
@@ -42,7 +47,7 @@ impl ScenePlot {
         let loads = once_each("loads", figure.loads.iter().map(|one| (&one.name, &one.words, one)));
         let wanted: [(&str, f64, Vec<Option<WantedName>>); 5] = [
             ("bodies", 14.0, figure.parts.iter().map(of_part).collect()),
-            ("contacts", 12.0, figure.contacts.iter().enumerate().map(of_contact).collect()),
+            (CONTACTS, 12.0, figure.contacts.iter().enumerate().map(of_contact).collect()),
             ("supports", 11.0, supports.into_iter().map(of_support).collect()),
             ("loads", 11.0, loads.into_iter().map(of_load).collect()),
             ("boundaries", 11.0, figure.boundaries.iter().map(|one| beside(&one.name, GREY, &one.rows, 0.3)).collect()),
@@ -58,14 +63,17 @@ impl ScenePlot {
 
     /// Names of one kind, as far as there is room; tells of how many some are named only.
     fn named(&mut self, all: &[Option<WantedName>], kind: &str, size: f64) -> Option<String> {
-        let every = if all.len() > MOST_NAMES { all.len().div_ceil(FEW_NAMES) } else { 1 };
+        // Numbers take little room, and those without room are left out.
+        let has_numbers = kind == CONTACTS && all.len() > MOST_TOLD;
+        let every = if all.len() > MOST_NAMES && !has_numbers { all.len().div_ceil(FEW_NAMES) } else { 1 };
         let mut count = 0;
         for (text, colour, anchor, wish) in all.iter().step_by(every).flatten().cloned() {
             let text: String = if text.chars().count() > 40 { text.chars().take(39).chain(['…']).collect() } else { text };
             let letters = Letters { is_bold: size > 11.0, ..Letters::new(size, colour) };
             count += usize::from(self.labels.put(&mut self.canvas, &Name { text: &text, letters, anchor, wish }));
         }
-        (count < all.len()).then(|| format!("{count} of {} {kind}", all.len()))
+        let rows = if has_numbers && all.len() > MOST_NAMES { " (rows of contacts.csv)" } else { "" };
+        (count < all.len() || !rows.is_empty()).then(|| format!("{count} of {} {kind}{rows}", all.len()))
     }
 }
 

@@ -35,6 +35,7 @@ impl Draft<'_> {
         self.bodies(&mut text, &weights);
         self.circles(&mut text);
         self.contacts(&mut text);
+        self.tool(&mut text);
         self.supports(&mut text, &mut tables);
         self.guides(&mut text, &weights, &mut tables);
         if weights.is_empty() || self.guesses.pressed().is_some() {
@@ -143,6 +144,26 @@ order = 2
             let _ = write!(text, "\n# Left out, since `mezha check` refuses it:\n#   {why}\n");
             contact_table(pair, &mut tables).lines().for_each(|line| *text += &format!("# {line}\n"));
         }
+    }
+
+    /// What may press on a body that is alone: a rigid tool above the boundary that is pressed, as a comment.
+    fn tool(&self, text: &mut String) {
+        let Some(curve) = self.guesses.pressed().filter(|_| self.guesses.mesh.bodies.len() == 1) else { return };
+        let [left, right, high] = [curve.low.x, curve.high.x, curve.high.y].map(short);
+        let _ = write!(
+            text,
+            "
+# A rigid tool, which needs no mesh, may press on the body instead of a load:
+# [rigid.tool]
+# line = [[{left}, {high}], [{right}, {high}]]   # or circle = {{ centre = [x, y], radius = r }}
+# ux = 0.0
+# uy = -0.01                # example: how far it is moved; or force = [0.0, -1.0]
+# angle = 0.0
+# [contact.tool]
+# between = [{}, \"rigid.tool\"]
+",
+            quoted(curve.name)
+        );
     }
 
     fn supports(&self, text: &mut String, tables: &mut TableNames) {

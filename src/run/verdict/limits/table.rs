@@ -142,7 +142,7 @@ pub static LOST_AT_ENDS: Limit = most((0.02, two_digits, Words(AFTER_SLIDING), S
 /// `slip_at_ends`: share by which one body slides along another that goes on: the force stays, the pressure on that one lies
 /// elsewhere.
 pub static SLIP_AT_ENDS: Limit = most((0.1, two_digits, Words(AFTER_SLIDING), SLIDING_CAUSE,
-    "one body slides along the other by {value} of the length in contact, at most {bound} wanted: the pressure lies elsewhere"));
+    "one body slides along the other by {value} times the length in contact, at most {bound} times wanted: the pressure lies elsewhere"));
 
 const TURNING_CAUSE: &str = "the bodies turn too far";
 const TURN_LESS: &str = "the theory is that of small rotations: draw the bodies as they lie after turning, and turn them by less";

@@ -68,6 +68,10 @@ fn locking_doubt(case: &Case) -> Option<Doubt> {
 pub fn unresolved_doubt(contact: &ContactSummary) -> Option<Doubt> {
     let force = contact.force.unwrap_or(0.0).abs();
     let off = contact.unresolved_force.filter(|off| *off > WITHIN_SEGMENTS.value * force)?;
-    let worth = if force > 0.0 { format!(", which is worth {} of its force", short(off / force)) } else { String::new() };
+    let worth = if force > 0.0 {
+        format!(": to press them apart would take {} times its force", short(off / force))
+    } else {
+        String::new()
+    };
     Some(WITHIN_SEGMENTS.doubt(off, &[("worth", &worth)]))
 }
