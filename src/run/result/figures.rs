@@ -65,15 +65,14 @@ impl Run<'_> {
         }
         self.write_contacts(contacts, &drawn, &shown, &zooms)?;
         let forces = drawn_forces(&found.problem.scene, contacts, summary, self.case.thickness);
-        // Where forces are many, their lines say where contacts are.
-        let drawn = if contacts.len() > MOST_WITH_FIGURES { &[][..] } else { &drawn };
         let figure = DeformedFigure {
             title: title(self.case),
             measure: StressMeasure::VonMises,
             facets: &facets,
             macro_edges: &macro_edges,
             interfaces: &interfaces,
-            contacts: drawn,
+            contacts: &drawn,
+            are_contacts_many: contacts.len() > MOST_WITH_FIGURES,
             forces: &forces,
             peaks,
             has_axis: self.case.plane == Plane::Revolution,

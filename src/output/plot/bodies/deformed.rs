@@ -68,6 +68,8 @@ pub struct DeformedFigure<'a> {
     pub interfaces: &'a [DrawnEdge],
     /// Contact boundaries.
     pub contacts: &'a [DrawnContact<'a>],
+    /// Whether they are so many that the lines of their forces alone say where they are.
+    pub are_contacts_many: bool,
     /// Forces: lines, as wide as they are large.
     pub forces: &'a [DrawnForce],
     /// The largest stress of each body, by its name.
@@ -88,6 +90,7 @@ impl DeformedFigure<'_> {
         check_facets(path, facets)?;
         let (scale, colours, boundary) =
             (automatic_scale(facets, contacts), Colours::of(facets, self.measure), boundary_edges(facets));
+        let contacts = if self.are_contacts_many { &[][..] } else { contacts };
         let shown = around(facets, scale);
         let (mut canvas, chart) = plane(if self.has_axis { up_to_the_axis(shown) } else { shown }, self.has_axis, self.units);
         let largest = self.forces.iter().map(DrawnForce::size).fold(0.0, f64::max);
