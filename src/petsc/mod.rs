@@ -46,7 +46,7 @@ pub use matrix::Matrix;
 pub use partition::partition;
 pub use preconditioner::Preconditioner;
 pub use session::{Session, end_all_ranks};
-pub use shell::{Action, Operator, Product, ReplacedAction, Transfer};
+pub use shell::{Action, Operator, ReplacedAction};
 pub use stage::{Stage, StageGuard};
 pub use vector::Vector;
 pub use watch::{SolveAtWork, WatchedSolve, solve_at_work};

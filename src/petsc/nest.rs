@@ -4,7 +4,7 @@ use super::error::{Result, petsc};
 use super::index_set::IndexSet;
 use super::matrix::Matrix;
 use super::session::Session;
-use super::shell::Product;
+use super::shell::Operator;
 use super::vector::Vector;
 use super::window::Window;
 use std::cell::RefCell;
@@ -19,7 +19,7 @@ struct NestProduct {
     parts: RefCell<[[Window; 2]; 2]>,
 }
 
-impl Product for NestProduct {
+impl Operator for NestProduct {
     fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         let (x, mut y) = (x.values(), y.values_mut());
         let ((u, lambda), (f, g)) = (x.split_at(self.upper), y.split_at_mut(self.upper));
@@ -54,7 +54,8 @@ impl Matrix {
         ];
         let [[a, b], [c, d]] = blocks;
         let blocks = [[a.share()?, b.share()?], [c.share()?, d.share()?]];
-        Matrix::product(session, upper + lower, Box::new(NestProduct { blocks, upper, parts: RefCell::new(parts) }))
+        let product = Box::new(NestProduct { blocks, upper, parts: RefCell::new(parts) });
+        Matrix::operator(session, upper + lower, upper + lower, product)
     }
 
     /// Another reference to the matrix: both have the same entries.

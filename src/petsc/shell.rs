@@ -10,37 +10,31 @@ use std::ffi::{CString, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::{mem, ptr};
 
-/// A square matrix by what it does. **Collective**, all of it; an error must be one on all ranks.
+/// A matrix by what it does; it need not know what it is not asked for. **Collective**, all of it; an error must be one on all
+/// ranks.
 pub trait Operator {
     /// `y = A x`.
     fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()>;
 
+    /// `y += A x`, for [`Matrix::transfer`].
+    fn multiply_add(&self, _x: &Vector, _y: &mut Vector) -> Result<()> {
+        unreachable!("a matrix that adds no products")
+    }
+
+    /// `y = Aᵀ x`, for [`Matrix::transfer`].
+    fn multiply_transpose(&self, _x: &Vector, _y: &mut Vector) -> Result<()> {
+        unreachable!("a matrix whose transposed is not known")
+    }
+
     /// Largest sum of magnitudes in a row of this rank, or of all.
-    fn norm_infinity(&self) -> Result<f64>;
+    fn norm_infinity(&self) -> Result<f64> {
+        unreachable!("a matrix whose norm is not known")
+    }
 
     /// Floating-point operations of a product on this rank, for PETSc's log.
-    fn work(&self) -> f64;
-}
-
-/// A matrix from one space to another by what it does. **Collective**, all of it; an error must be one on all ranks.
-pub trait Transfer {
-    /// `y = A x`.
-    fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()>;
-
-    /// `y += A x`.
-    fn multiply_add(&self, x: &Vector, y: &mut Vector) -> Result<()>;
-
-    /// `y = Aᵀ x`.
-    fn multiply_transpose(&self, x: &Vector, y: &mut Vector) -> Result<()>;
-
-    /// Floating-point operations of a product on this rank, for PETSc's log.
-    fn work(&self) -> f64;
-}
-
-/// A square matrix by its products alone. **Collective**; an error must be one on all ranks.
-pub trait Product {
-    /// `y = A x`.
-    fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()>;
+    fn work(&self) -> f64 {
+        0.0
+    }
 }
 
 /// What a preconditioner does. **Collective**; an error must be one on all ranks.
@@ -55,53 +49,36 @@ struct Context<T: ?Sized> {
     session: Session,
 }
 
-type Square = dyn Operator;
-type Rectangular = dyn Transfer;
-type Multiplied = dyn Product;
 type Acting = dyn Action;
+type Multiplying = dyn Operator;
 type Code = ffi::PetscErrorCode;
 
 impl Matrix {
-    /// A square matrix with `rows` rows and columns on this rank. **Collective**
-    pub fn operator(session: &Session, rows: usize, action: Box<dyn Operator>) -> Result<Self> {
-        let matrix = Self::shell(session, rows, rows, action)?;
-        let set = |operation, function| petsc!(MatShellSetOperation(matrix.raw(), operation, Some(function)));
-        // PETSc stores every operation as a function without arguments and calls it as what it is.
-        unsafe {
-            set(ffi::MatOperation::MATOP_MULT, mem::transmute::<Two, Plain>(operator::multiply))?;
-            set(ffi::MatOperation::MATOP_NORM, mem::transmute::<Norm, Plain>(operator::norm))?;
-        }
-        Ok(matrix)
-    }
-
-    /// A square matrix with `rows` rows and columns on this rank that knows its products alone. **Collective**
-    pub fn product(session: &Session, rows: usize, action: Box<dyn Product>) -> Result<Self> {
-        let matrix = Self::shell(session, rows, rows, action)?;
-        let multiply = unsafe { mem::transmute::<Two, Plain>(product) };
-        petsc!(MatShellSetOperation(matrix.raw(), ffi::MatOperation::MATOP_MULT, Some(multiply)))?;
-        Ok(matrix)
-    }
-
-    /// A matrix with `rows` × `columns` on this rank. **Collective**
-    pub fn transfer(session: &Session, rows: usize, columns: usize, action: Box<dyn Transfer>) -> Result<Self> {
-        let matrix = Self::shell(session, rows, columns, action)?;
-        let set = |operation, function| petsc!(MatShellSetOperation(matrix.raw(), operation, Some(function)));
-        unsafe {
-            set(ffi::MatOperation::MATOP_MULT, mem::transmute::<Two, Plain>(transfer::multiply))?;
-            set(ffi::MatOperation::MATOP_MULT_ADD, mem::transmute::<Three, Plain>(transfer::multiply_add))?;
-            set(ffi::MatOperation::MATOP_MULT_TRANSPOSE, mem::transmute::<Two, Plain>(transfer::multiply_transpose))?;
-        }
-        Ok(matrix)
-    }
-
-    fn shell<T: ?Sized>(session: &Session, rows: usize, columns: usize, action: Box<T>) -> Result<Self> {
+    /// A matrix with `rows` × `columns` on this rank that knows its products and its norm. **Collective**
+    pub fn operator(session: &Session, rows: usize, columns: usize, action: Box<dyn Operator>) -> Result<Self> {
         let any = ffi::mezha_determine;
         let context = Box::into_raw(Box::new(Context { action, session: session.clone() }));
         let mut raw = ptr::null_mut();
         petsc!(MatCreateShell(session.raw(), length(rows), length(columns), any, any, context.cast(), &mut raw))?;
         let matrix = Self::from_raw(session, raw);
-        petsc!(mezha_set_context_destructor(raw, Some(drop_context::<T>)))?;
+        petsc!(mezha_set_context_destructor(raw, Some(drop_context)))?;
+        // PETSc stores every operation as a function without arguments and calls it as what it is.
+        matrix.set_operation(ffi::MatOperation::MATOP_MULT, unsafe { mem::transmute::<Two, Plain>(multiply) })?;
+        matrix.set_operation(ffi::MatOperation::MATOP_NORM, unsafe { mem::transmute::<Norm, Plain>(norm) })?;
         Ok(matrix)
+    }
+
+    /// The same of a matrix that also adds its products and knows those of its transpose. **Collective**
+    pub fn transfer(session: &Session, rows: usize, columns: usize, action: Box<dyn Operator>) -> Result<Self> {
+        let matrix = Self::operator(session, rows, columns, action)?;
+        matrix.set_operation(ffi::MatOperation::MATOP_MULT_ADD, unsafe { mem::transmute::<Three, Plain>(multiply_add) })?;
+        let transposed = unsafe { mem::transmute::<Two, Plain>(multiply_transpose) };
+        matrix.set_operation(ffi::MatOperation::MATOP_MULT_TRANSPOSE, transposed)?;
+        Ok(matrix)
+    }
+
+    fn set_operation(&self, operation: ffi::MatOperation, function: Plain) -> Result<()> {
+        petsc!(MatShellSetOperation(self.raw(), operation, Some(function)))
     }
 }
 
@@ -188,7 +165,7 @@ unsafe extern "C" fn apply(preconditioner: ffi::PC, x: ffi::Vec, y: ffi::Vec) ->
 }
 
 /// Runs an action on the context of a shell matrix.
-fn act_by<T: ?Sized>(matrix: ffi::Mat, action: impl FnOnce(&T, &Session) -> Result<()>) -> Code {
+fn act_by(matrix: ffi::Mat, action: impl FnOnce(&Multiplying, &Session) -> Result<()>) -> Code {
     act(|context| petsc!(MatShellGetContext(matrix, context)), action)
 }
 
@@ -215,65 +192,45 @@ fn report(action: impl FnOnce() -> Result<()>) -> Code {
 }
 
 /// Drops the action with the matrix.
-unsafe extern "C" fn drop_context<T: ?Sized>(given: *mut c_void) -> Code {
+unsafe extern "C" fn drop_context(given: *mut c_void) -> Code {
     let context = unsafe { ffi::mezha_context_to_destroy(given) };
-    drop(unsafe { Box::from_raw(context.cast::<Context<T>>()) });
+    drop(unsafe { Box::from_raw(context.cast::<Context<Multiplying>>()) });
     0
 }
 
-/// [`Product`] as PETSc calls it.
-unsafe extern "C" fn product(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
-    act_by(matrix, |action: &Multiplied, session| action.multiply(&Lent::new(session, x), &mut Lent::new(session, y)))
+// [`Operator`] as PETSc calls it.
+
+unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
+    act_by(matrix, |action, session| {
+        action.multiply(&Lent::new(session, x), &mut Lent::new(session, y))?;
+        petsc!(mezha_log_work(action.work()))
+    })
 }
 
-/// [`Operator`] as PETSc calls it.
-mod operator {
-    use super::*;
-
-    pub unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
-        act_by(matrix, |action: &Square, session| {
-            action.multiply(&Lent::new(session, x), &mut Lent::new(session, y))?;
-            petsc!(mezha_log_work(action.work()))
-        })
-    }
-
-    pub unsafe extern "C" fn norm(matrix: ffi::Mat, kind: ffi::NormType, norm: *mut f64) -> Code {
-        act_by(matrix, |action: &Square, session| {
-            assert_eq!(kind, ffi::NormType::NORM_INFINITY, "the one norm that shells have");
-            let mut largest = [action.norm_infinity()?];
-            session.max(&mut largest);
-            unsafe { *norm = largest[0] };
-            Ok(())
-        })
-    }
+unsafe extern "C" fn multiply_add(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec, sum: ffi::Vec) -> Code {
+    act_by(matrix, |action, session| {
+        let mut target = Lent::new(session, sum);
+        if y != sum {
+            target.copy_from(&Lent::new(session, y))?;
+        }
+        action.multiply_add(&Lent::new(session, x), &mut target)?;
+        petsc!(mezha_log_work(action.work()))
+    })
 }
 
-/// [`Transfer`] as PETSc calls it.
-mod transfer {
-    use super::*;
+unsafe extern "C" fn multiply_transpose(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
+    act_by(matrix, |action, session| {
+        action.multiply_transpose(&Lent::new(session, x), &mut Lent::new(session, y))?;
+        petsc!(mezha_log_work(action.work()))
+    })
+}
 
-    pub unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
-        act_by(matrix, |action: &Rectangular, session| {
-            action.multiply(&Lent::new(session, x), &mut Lent::new(session, y))?;
-            petsc!(mezha_log_work(action.work()))
-        })
-    }
-
-    pub unsafe extern "C" fn multiply_add(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec, sum: ffi::Vec) -> Code {
-        act_by(matrix, |action: &Rectangular, session| {
-            let mut target = Lent::new(session, sum);
-            if y != sum {
-                target.copy_from(&Lent::new(session, y))?;
-            }
-            action.multiply_add(&Lent::new(session, x), &mut target)?;
-            petsc!(mezha_log_work(action.work()))
-        })
-    }
-
-    pub unsafe extern "C" fn multiply_transpose(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
-        act_by(matrix, |action: &Rectangular, session| {
-            action.multiply_transpose(&Lent::new(session, x), &mut Lent::new(session, y))?;
-            petsc!(mezha_log_work(action.work()))
-        })
-    }
+unsafe extern "C" fn norm(matrix: ffi::Mat, kind: ffi::NormType, norm: *mut f64) -> Code {
+    act_by(matrix, |action, session| {
+        assert_eq!(kind, ffi::NormType::NORM_INFINITY, "the one norm that shells have");
+        let mut largest = [action.norm_infinity()?];
+        session.max(&mut largest);
+        unsafe { *norm = largest[0] };
+        Ok(())
+    })
 }

@@ -363,7 +363,7 @@ impl Operator for Diagonal {
 
 fn operator_acts(session: &Session) {
     let own = share(session, 6).len();
-    let a = Matrix::operator(session, own, Box::new(Diagonal { value: 0.5, broken: false })).unwrap();
+    let a = Matrix::operator(session, own, own, Box::new(Diagonal { value: 0.5, broken: false })).unwrap();
     let b = ramp(session, 6);
     let mut x = b.duplicate().unwrap();
     let krylov = Krylov::new(session, "").unwrap();
@@ -378,13 +378,13 @@ fn operator_acts(session: &Session) {
 }
 
 fn operator_errors_are_reported(session: &Session) {
-    let a = Matrix::operator(session, 1, Box::new(Diagonal { value: 1.0, broken: true })).unwrap();
+    let a = Matrix::operator(session, 1, 1, Box::new(Diagonal { value: 1.0, broken: true })).unwrap();
     let x = Vector::new(session, 1).unwrap();
     let mut y = x.duplicate().unwrap();
     let Err(Error::Petsc { call, message, .. }) = a.multiply(&x, &mut y) else { panic!("the error was lost") };
     assert_eq!(call, "MatMult");
     assert_eq!(message, Error::AlreadyStarted.to_string());
-    let sound = Matrix::operator(session, 1, Box::new(Diagonal { value: 3.0, broken: false })).unwrap();
+    let sound = Matrix::operator(session, 1, 1, Box::new(Diagonal { value: 3.0, broken: false })).unwrap();
     y.set(2.0).unwrap();
     let mut z = y.duplicate().unwrap();
     sound.multiply(&y, &mut z).unwrap();

@@ -138,9 +138,9 @@ pub struct Stiffness {
 impl Stiffness {
     /// From its rows. **Collective**
     fn new(lattice: LatticeOperator, seen: SolverView, session: &Session) -> Result<Self, SystemError> {
-        let lattice = Rc::new(lattice);
+        let (unknowns, lattice) = (2 * lattice.own.len(), Rc::new(lattice));
         let mut matrix = match seen {
-            SolverView::Action => Matrix::operator(session, 2 * lattice.own.len(), Box::new(lattice.clone()))?,
+            SolverView::Action => Matrix::operator(session, unknowns, unknowns, Box::new(lattice.clone()))?,
             SolverView::Entries => lattice.expanded(session)?,
         };
         matrix.set_positive_definite(true)?;

@@ -3,7 +3,7 @@
 use super::border_blocks::{BorderBlocks, BorderColumn, BorderUnknown};
 use crate::discretisation::Form;
 use crate::multigrid::{Border, Sparse};
-use crate::petsc::{Matrix, Product, Result, Vector};
+use crate::petsc::{Matrix, Operator, Result, Vector};
 use crate::system::rigid_border::RigidComponent;
 use nalgebra::{DMatrix, DVector};
 use std::cell::RefCell;
@@ -194,7 +194,7 @@ pub struct BorderedProduct {
     pub border: Rc<RefCell<BorderBlocks>>,
 }
 
-impl Product for BorderedProduct {
+impl Operator for BorderedProduct {
     fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         self.blocks.multiply(x, y)?;
         self.border.borrow().subtract_eliminated(&x.values(), &mut y.values_mut());

@@ -141,7 +141,7 @@ impl SaddlePoint {
         let border = Rc::new(RefCell::new(BorderBlocks::new(problem, border, self.form, session)));
         let rows = self.product.local_size().0;
         let product = BorderedProduct { blocks: self.product.share()?, border: border.clone() };
-        (self.product, self.border) = (Matrix::product(session, rows, Box::new(product))?, Some(border));
+        (self.product, self.border) = (Matrix::operator(session, rows, rows, Box::new(product))?, Some(border));
         self.set_border(problem);
         Ok(self)
     }

@@ -2,7 +2,7 @@
 
 use crate::discretisation::{Components, Space};
 use crate::geometry::Point;
-use crate::petsc::{Gather, Index, Result, Session, Transfer, Vector};
+use crate::petsc::{Gather, Index, Operator, Result, Session, Vector};
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
@@ -66,7 +66,7 @@ impl TransposedCoupling {
     }
 }
 
-impl Transfer for Rc<TransposedCoupling> {
+impl Operator for Rc<TransposedCoupling> {
     fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         y.set(0.0)?;
         self.multiply_add(x, y)
