@@ -5,7 +5,7 @@ use super::block_lanes::product;
 use super::couplings::Couplings;
 use super::registers::{side_by_side, triangles_kernel};
 use super::sweep_order::SweepHalves;
-use super::triangle_kernel::TriangleKernel;
+use super::triangle_kernel::{InnerNodes, TriangleKernel, TriangleTask};
 use crate::element::Block;
 use crate::mesh::lattice;
 use crate::multigrid::triangle_lattice::{Lane, LatticeRoom, TriangleNodes, clear_sides, side_nodes};
@@ -37,6 +37,13 @@ struct Group {
     /// Whether the nodes on the sides of all of them are here; otherwise none of them has all here.
     is_here: bool,
     kernel: Box<dyn TriangleKernel>,
+}
+
+impl Group {
+    /// Does a task on inner nodes of lattices with `n` intervals; `own` has the values of the nodes on the sides.
+    fn work(&self, n: usize, own: &mut [[f64; 2]], task: TriangleTask) {
+        self.kernel.work(InnerNodes { n, first: &self.first }, own, task);
+    }
 }
 
 impl EvenTriangles {
@@ -79,7 +86,7 @@ impl EvenTriangles {
         let [room, own] = &mut *self.room.borrow_mut();
         for group in self.groups.iter().filter(|group| group.is_here == is_here) {
             let room = room.lattice(self.n, group.kernel.width());
-            group.kernel.multiply(self.n, &group.first, x, self.sides(group, x, far, own), room, y);
+            group.work(self.n, self.sides(group, x, far, own), TriangleTask::Multiply { x, room, y });
         }
     }
 
@@ -89,7 +96,7 @@ impl EvenTriangles {
         for group in self.groups.iter().filter(|group| group.is_here == is_here) {
             let width = group.kernel.width();
             let room = room.lattice(self.n, width);
-            group.kernel.residual(self.n, &group.first, b, x, self.sides(group, x, far, own), room);
+            group.work(self.n, self.sides(group, x, far, own), TriangleTask::Residual { b, x, r: room });
             for (at, &member) in group.members.iter().enumerate() {
                 self.triangles[member].take_inner(room, Lane { width, at }, r);
             }
@@ -100,7 +107,7 @@ impl EvenTriangles {
     pub fn residual_of(&self, group: usize, b: &[[f64; 2]], x: &[[f64; 2]], far: &[[f64; 2]], r: &mut [[f64; 2]]) {
         let [_, own] = &mut *self.room.borrow_mut();
         let group = &self.groups[group];
-        group.kernel.residual(self.n, &group.first, b, x, self.sides(group, x, far, own), r);
+        group.work(self.n, self.sides(group, x, far, own), TriangleTask::Residual { b, x, r });
         clear_sides(self.n, group.kernel.width(), r);
     }
 
@@ -108,8 +115,7 @@ impl EvenTriangles {
     pub fn relax(&self, sweep: SweepHalves, b: &[[f64; 2]], x: &mut [[f64; 2]], far: &[[f64; 2]]) {
         let [_, own] = &mut *self.room.borrow_mut();
         for group in &*self.groups {
-            let own = self.sides(group, x, far, own);
-            group.kernel.relax(self.n, sweep, &group.first, b, x, own);
+            group.work(self.n, self.sides(group, x, far, own), TriangleTask::Relax { sweep, b, x });
         }
     }
 }

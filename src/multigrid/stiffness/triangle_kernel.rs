@@ -9,30 +9,15 @@ use super::row_stencil::{Alike, Alternate, RowStencil, Way};
 use super::sweep_order::SweepHalves;
 use crate::mesh::lattice;
 
-/// Work on all inner nodes of a few macro triangles with `n` intervals; `first` are their first inner nodes in the vectors of
-/// the rank. `own` is a lattice of as many macro triangles as [`TriangleKernel::width`] says, which has the values of the nodes
-/// on the sides: lanes that are left over repeat the last macro triangle. Inner nodes come into the lattice row by row, and go
-/// back, while others are worked on: so memory and registers are busy at once.
+/// Work on all inner nodes of a few macro triangles. Inner nodes come into the lattice row by row, and go back, while others are
+/// worked on: so memory and registers are busy at once.
 pub trait TriangleKernel {
     /// Macro triangles side by side.
     fn width(&self) -> usize;
 
-    /// `y = K x`; `room` is another lattice.
-    fn multiply(
-        &self,
-        n: usize,
-        first: &[usize],
-        x: &[[f64; 2]],
-        own: &mut [[f64; 2]],
-        room: &mut [[f64; 2]],
-        y: &mut [[f64; 2]],
-    );
-
-    /// `r = b - K x`, into the inner nodes of a lattice.
-    fn residual(&self, n: usize, first: &[usize], b: &[[f64; 2]], x: &[[f64; 2]], own: &mut [[f64; 2]], r: &mut [[f64; 2]]);
-
-    /// A Gauss-Seidel sweep, row by row; nodes on the sides stay as they are.
-    fn relax(&self, n: usize, sweep: SweepHalves, first: &[usize], b: &[[f64; 2]], x: &mut [[f64; 2]], own: &mut [[f64; 2]]);
+    /// Does a task. `own` is a lattice of as many macro triangles as [`TriangleKernel::width`] says, which has the values of the
+    /// nodes on the sides: lanes that are left over repeat the last macro triangle.
+    fn work(&self, nodes: InnerNodes, own: &mut [[f64; 2]], task: TriangleTask);
 }
 
 /// The kernel with given registers, for macro triangles with these couplings of rows with even and with odd `j`, or of all rows:
@@ -60,9 +45,11 @@ struct OfRows<L: Lanes, E, O> {
 
 /// The inner nodes of some macro triangles in the vectors of a rank.
 #[derive(Clone, Copy)]
-struct InnerNodes<'a> {
-    n: usize,
-    first: &'a [usize],
+pub struct InnerNodes<'a> {
+    /// Lattice intervals.
+    pub n: usize,
+    /// The first inner node of each.
+    pub first: &'a [usize],
 }
 
 /// The most macro triangles side by side.
@@ -124,9 +111,12 @@ impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> OfRows<L, E, O> {
 }
 
 /// What is to be done with the inner nodes.
-enum TriangleTask<'a> {
+pub enum TriangleTask<'a> {
+    /// `y = K x`; `room` is another lattice.
     Multiply { x: &'a [[f64; 2]], room: &'a mut [[f64; 2]], y: &'a mut [[f64; 2]] },
+    /// `r = b - K x`, into the inner nodes of a lattice.
     Residual { b: &'a [[f64; 2]], x: &'a [[f64; 2]], r: &'a mut [[f64; 2]] },
+    /// A Gauss-Seidel sweep, row by row; nodes on the sides stay as they are.
     Relax { sweep: SweepHalves, b: &'a [[f64; 2]], x: &'a mut [[f64; 2]] },
 }
 
@@ -197,29 +187,7 @@ impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> TriangleKernel for OfRows<L, 
         L::COUNT
     }
 
-    fn multiply(
-        &self,
-        n: usize,
-        first: &[usize],
-        x: &[[f64; 2]],
-        own: &mut [[f64; 2]],
-        room: &mut [[f64; 2]],
-        y: &mut [[f64; 2]],
-    ) {
-        self.on(InnerNodes { n, first }, own, TriangleTask::Multiply { x, room, y });
-    }
-
-    fn residual(&self, n: usize, first: &[usize], b: &[[f64; 2]], x: &[[f64; 2]], own: &mut [[f64; 2]], r: &mut [[f64; 2]]) {
-        self.on(InnerNodes { n, first }, own, TriangleTask::Residual { b, x, r });
-    }
-
-    fn relax(&self, n: usize, sweep: SweepHalves, first: &[usize], b: &[[f64; 2]], x: &mut [[f64; 2]], own: &mut [[f64; 2]]) {
-        self.on(InnerNodes { n, first }, own, TriangleTask::Relax { sweep, b, x });
-    }
-}
-
-impl<L: Lanes, E: RowStencil<L>, O: RowStencil<L>> OfRows<L, E, O> {
-    fn on(&self, nodes: InnerNodes<'_>, own: &mut [[f64; 2]], task: TriangleTask<'_>) {
+    fn work(&self, nodes: InnerNodes, own: &mut [[f64; 2]], task: TriangleTask) {
         self.lanes.run(OnLattice { kernel: self, nodes, own, task });
     }
 }

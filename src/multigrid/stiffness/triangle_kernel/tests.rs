@@ -63,7 +63,7 @@ fn check<L: Lanes>(lanes: L, tolerance: f64) {
         let samples: Vec<Sample> = (0..count).map(sample).collect();
         let couplings: Vec<&[Couplings]> = samples.iter().map(|sample| sample.couplings.as_slice()).collect();
         let first: Vec<usize> = samples.iter().map(|sample| sample.first).collect();
-        let kernel = triangle_kernel(lanes, &couplings);
+        let (kernel, nodes) = (triangle_kernel(lanes, &couplings), InnerNodes { n, first: &first });
         assert_eq!(kernel.width(), L::COUNT);
         let (b, mut start) = (vector(count * apart, 5), vector(count * apart, 99));
         // Inner nodes come from the vector: what the lattice has of them before is nothing.
@@ -83,7 +83,7 @@ fn check<L: Lanes>(lanes: L, tolerance: f64) {
         };
         for sweep in [SweepHalves::Forward, SweepHalves::ForwardFromZero, SweepHalves::Both] {
             let (mut x, mut expected) = (start.clone(), start.clone());
-            kernel.relax(n, sweep, &first, &b, &mut x, &mut sides.clone());
+            kernel.work(nodes, &mut sides.clone(), TriangleTask::Relax { sweep, b: &b, x: &mut x });
             for sample in &samples {
                 let mut own = sample.lattice.clone();
                 if sweep == SweepHalves::ForwardFromZero {
@@ -99,8 +99,8 @@ fn check<L: Lanes>(lanes: L, tolerance: f64) {
         }
         let (mut y, mut product) = (start.clone(), start.clone());
         let (mut room, mut r) = (sides.clone(), sides.clone());
-        kernel.multiply(n, &first, &start, &mut sides.clone(), &mut room, &mut y);
-        kernel.residual(n, &first, &b, &start, &mut sides.clone(), &mut r);
+        kernel.work(nodes, &mut sides.clone(), TriangleTask::Multiply { x: &start, room: &mut room, y: &mut y });
+        kernel.work(nodes, &mut sides.clone(), TriangleTask::Residual { b: &b, x: &start, r: &mut r });
         for (lane, sample) in samples.iter().enumerate() {
             for (i, j) in sample.nodes() {
                 let place = sample.place(i, j);
