@@ -214,7 +214,7 @@ fn a_cycle_reduces_the_error(session: &Session) {
         let b = product(stored, &x);
         let energy = b.dot(&x).expect("an energy");
         let left = [0, 2, 4].map(|steps| {
-            let cycle =
+            let mut cycle =
                 Cycle::new(whole.stiffness.iter().map(Stiffness::lattice), &interpolations, steps, session).expect("a cycle");
             let mut error = x.duplicate().expect("a vector");
             cycle.apply(&mut b.values().to_vec(), &[], &mut error.values_mut()).expect("applied");

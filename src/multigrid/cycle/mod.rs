@@ -27,7 +27,7 @@ use std::rc::Rc;
 /// correction, from what the coarser level has found. Sweeps are symmetric; before the coarse corrections of levels below the
 /// finest one they go forward alone where not all rows are stored, or from zero: that saves a quarter of the sweeps there and costs
 /// one iteration in a hundred.
-pub struct FullCycle {
+pub struct Cycle {
     coarsest: Coarsest,
     /// Those that are swept, the coarsest first.
     levels: Vec<CycleLevel>,
@@ -37,10 +37,10 @@ pub struct FullCycle {
     r: Vec<[f64; 2]>,
 }
 
-impl FullCycle {
+impl Cycle {
     /// On the rows of levels, the coarsest first, with the interpolations between them; smoothed by a sweep, or by so many steps
     /// of CG. **Collective**
-    fn new<'a>(
+    pub fn new<'a>(
         mut levels: impl Iterator<Item = &'a Rc<LatticeOperator>>,
         interpolations: &[Interpolation],
         steps: usize,
@@ -60,13 +60,13 @@ impl FullCycle {
     }
 
     /// Takes over the values of the stiffness, which have changed. **Collective**
-    fn refresh(&mut self, session: &Session) -> Result<()> {
+    pub fn refresh(&mut self, session: &Session) -> Result<()> {
         self.levels.iter_mut().for_each(CycleLevel::refresh);
         self.coarsest.refresh(session)
     }
 
     /// Takes over unknowns beside the displacements, for the present values of the stiffness. **Collective**
-    fn set_border(&mut self, border: Border, session: &Session) -> Result<()> {
+    pub fn set_border(&mut self, border: Border, session: &Session) -> Result<()> {
         if border.columns.is_empty() {
             self.border = None;
             return Ok(());
@@ -101,8 +101,10 @@ impl FullCycle {
         }
     }
 
-    /// `x` of `[x; p] = M⁻¹ [b; g]` for the nodes of this rank; without the border if `g` is empty. `b` changes. **Collective**
-    fn apply(&mut self, b: &mut [[f64; 2]], g: &[f64], x: &mut [[f64; 2]]) -> Result<()> {
+    /// `x` of `[x; p] = M⁻¹ [b; g]` for the unknowns of this rank, with the unknowns `p` of a border if there is one; without the
+    /// border if `g` is empty. `b` is not what it was then. **Collective**
+    pub fn apply(&mut self, b: &mut [f64], g: &[f64], x: &mut [f64]) -> Result<()> {
+        let (b, x) = (b.as_chunks_mut().0, x.as_chunks_mut().0);
         self.restrict(b);
         let Self { coarsest, levels, border, r, .. } = self;
         let top = levels.len() - 1;
@@ -183,48 +185,9 @@ impl Descent<'_> {
     }
 }
 
-/// A cycle, shared with the preconditioner of PETSc's that it stands behind.
-#[derive(Clone)]
-pub struct Cycle(Rc<RefCell<FullCycle>>);
-
-impl Cycle {
-    /// On the rows of levels, the coarsest first; smoothed by a sweep, or by so many steps of CG. **Collective**
-    pub fn new<'a>(
-        levels: impl Iterator<Item = &'a Rc<LatticeOperator>>,
-        interpolations: &[Interpolation],
-        steps: usize,
-        session: &Session,
-    ) -> Result<Self> {
-        Ok(Self(Rc::new(RefCell::new(FullCycle::new(levels, interpolations, steps, session)?))))
-    }
-
-    /// `x` of `[x; p] = M⁻¹ [b; g]` for the unknowns of this rank, with the unknowns `p` of a border if there is one; `b` is not
-    /// what it was then. **Collective**
-    pub fn apply(&self, b: &mut [f64], g: &[f64], x: &mut [f64]) -> Result<()> {
-        self.0.borrow_mut().apply(b.as_chunks_mut().0, g, x.as_chunks_mut().0)
-    }
-
-    /// Takes over unknowns beside the displacements, for the present values of the stiffness. **Collective**
-    pub fn set_border(&self, border: Border, session: &Session) -> Result<()> {
-        self.0.borrow_mut().set_border(border, session)
-    }
-
-    /// What PETSc's preconditioner does.
-    pub fn action(&self) -> Box<dyn Action> {
-        Box::new(CycleAction(self.clone()))
-    }
-
-    /// Takes over the values of the stiffness, which have changed. **Collective**
-    pub fn refresh(&self, session: &Session) -> Result<()> {
-        self.0.borrow_mut().refresh(session)
-    }
-}
-
-/// The cycle as PETSc's preconditioner.
-struct CycleAction(Cycle);
-
-impl Action for CycleAction {
+/// As PETSc's preconditioner.
+impl Action for Rc<RefCell<Cycle>> {
     fn apply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        self.0.apply(&mut x.values().to_vec(), &[], &mut y.values_mut())
+        self.borrow_mut().apply(&mut x.values().to_vec(), &[], &mut y.values_mut())
     }
 }

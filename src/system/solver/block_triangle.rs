@@ -10,7 +10,7 @@ use std::rc::Rc;
 /// `S`. This is what fieldsplit does with the same parts. Rigid motions that are unknown belong to the upper field: the cycle finds
 /// those that it is told of.
 pub struct BlockTriangle {
-    cycle: Cycle,
+    cycle: Rc<RefCell<Cycle>>,
     /// Rigid motions, and multipliers of means, that the cycle has been told of.
     told: RefCell<Vec<BorderUnknown>>,
     border: Option<Rc<RefCell<BorderBlocks>>>,
@@ -31,7 +31,7 @@ struct Room {
 impl BlockTriangle {
     /// From the solver of the lower field and the coupling `B`. **Collective**
     pub fn new(
-        cycle: &Cycle,
+        cycle: &Rc<RefCell<Cycle>>,
         lower: Krylov,
         coupling: &Matrix,
         border: Option<Rc<RefCell<BorderBlocks>>>,
@@ -50,7 +50,7 @@ impl BlockTriangle {
 
     /// Tells the cycle of unknowns of the border, those of before no longer. **Collective**
     pub fn tell(&self, border: &BorderBlocks, unknowns: Vec<BorderUnknown>) -> Result<()> {
-        self.cycle.set_border(border.for_cycle(&unknowns), &self.session)?;
+        self.cycle.borrow_mut().set_border(border.for_cycle(&unknowns), &self.session)?;
         self.told.replace(unknowns);
         Ok(())
     }
@@ -68,6 +68,6 @@ impl Action for Rc<BlockTriangle> {
         let told = self.told.borrow();
         let border = self.border.as_ref().filter(|_| !told.is_empty());
         let g = border.map_or_else(Vec::new, |border| border.borrow().balances(&told, minus));
-        self.cycle.apply(force, &g, u)
+        self.cycle.borrow_mut().apply(force, &g, u)
     }
 }

@@ -11,6 +11,7 @@ use crate::discretisation::{Form, SystemError};
 use crate::multigrid::{Cycle, GalerkinLevels, Interpolation, Stiffness, takes_another_preconditioner};
 use crate::petsc::{self, Action, Krylov, Preconditioner, ReplacedAction, Session};
 use crate::system::saddle_point::SaddlePoint;
+use std::cell::RefCell;
 use std::rc::Rc;
 
 /// The rung of the field split of a system. **Collective**
@@ -84,13 +85,14 @@ fn levels(
     interpolations: &[Interpolation],
     preconditioning: Preconditioning,
     session: &Session,
-) -> Result<(GalerkinLevels, Cycle), SystemError> {
+) -> Result<(GalerkinLevels, Rc<RefCell<Cycle>>), SystemError> {
     let steps: Vec<_> = interpolations.iter().filter_map(|step| step.coarsening.clone()).collect();
     let auxiliary = GalerkinLevels::new(system.stiffness[0].lattice(), &steps, session)?;
     let all = auxiliary.iter().chain(system.stiffness.iter().map(Stiffness::lattice));
-    let cycle = Cycle::new(all, interpolations, preconditioning.conjugate_steps(), session)?;
+    let cycle = Rc::new(RefCell::new(Cycle::new(all, interpolations, preconditioning.conjugate_steps(), session)?));
     let solver = preconditioner.field_split_solvers()?.swap_remove(0);
-    solver.preconditioner().set_action("multigrid F-cycle on even macro triangles and stored rows", cycle.action())?;
+    let action = Box::new(cycle.clone());
+    solver.preconditioner().set_action("multigrid F-cycle on even macro triangles and stored rows", action)?;
     solver.set_up()?;
     Ok((auxiliary, cycle))
 }

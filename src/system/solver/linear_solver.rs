@@ -65,7 +65,7 @@ impl LinearSolver {
         }
         if let Some((auxiliary, cycle)) = levels {
             auxiliary.refresh(system.stiffness[0].lattice());
-            cycle.refresh(&self.session)?;
+            cycle.borrow_mut().refresh(&self.session)?;
         }
         set_operators(krylov, system, rung.preconditioning, &self.session)
     }

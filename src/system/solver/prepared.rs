@@ -3,6 +3,7 @@
 use super::bordered::Bordered;
 use crate::multigrid::{Cycle, GalerkinLevels};
 use crate::petsc::{Krylov, ReplacedAction};
+use std::cell::RefCell;
 use std::rc::Rc;
 
 /// A Krylov method with its preconditioner, set up for the blocks of one active set.
@@ -13,7 +14,7 @@ pub struct Prepared {
     /// What knows of rigid motions that are eliminated, if there are any.
     pub bordered: Option<Rc<Bordered>>,
     /// Auxiliary levels and the cycle, if it is that which preconditions the displacements.
-    pub levels: Option<(GalerkinLevels, Cycle)>,
+    pub levels: Option<(GalerkinLevels, Rc<RefCell<Cycle>>)>,
     /// The solver and its preconditioning, in words.
     pub name: String,
 }
