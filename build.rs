@@ -15,20 +15,20 @@ const FUNCTIONS: &[&str] = &[
     "PetscLogStage(Register|GetId|Push|Pop)",
     // vector, gather, index_set
     "Vec(Create|SetSizes|SetType|Duplicate|Destroy|GetArray|RestoreArray|GetArrayRead|RestoreArrayRead)",
-    "Vec(GetLocalSize|GetSize|GetOwnershipRange|Set|Norm|Dot|AXPY|Copy|Scale)",
+    "Vec(GetLocalSize|GetSize|GetOwnershipRange|Set|Norm|AXPY|Copy)",
     "VecCreate(Seq|SeqWithArray|MPIWithArray)|Vec(Place|Reset)Array|VecScatter(Create|Begin|End|Destroy)",
     "IS(CreateGeneral|Destroy|GetLocalSize|GetIndices|RestoreIndices)",
     // matrix, nest, shell
     "Mat(Create|SetSizes|SetType|Destroy|SetOption|AssemblyBegin|AssemblyEnd|ZeroEntries|Norm|GetInfo|Convert)",
-    "Mat(SetValues|SetValuesBlocked|Mult|MultAdd|MultTranspose|Residual|CreateVecs)",
-    "Mat(GetRow|RestoreRow|GetLocalSize|GetSize|GetOwnershipRange)",
+    "Mat(SetValues|SetValuesBlocked|Mult|MultAdd|Residual|CreateVecs)",
+    "Mat(GetLocalSize|GetSize|GetOwnershipRange)",
     "MatXAIJSetPreallocation|MatCreateNest|MatNestGetISs",
     "MatCreateShell|MatShell(SetOperation|GetContext)|PCShell(SetContext|GetContext|SetApply|SetDestroy|SetName)",
     // krylov, preconditioner
     "KSP(Create|Destroy|SetOptionsPrefix|GetOptionsPrefix|SetOperators|SetTolerances|SetFromOptions|SetUp|GetPC)",
     "KSP(SetInitialGuessNonzero|Solve|GetConvergedReason|GetConvergedReasonString|GetIterationNumber|GetResidualNorm)",
     "KSP(MonitorSet|GetResidualHistory|SetComputeEigenvalues|ComputeEigenvalues)",
-    "PC(Set|Get)ApplicationContext|PC(Destroy|SetType|GetType|GetOptionsPrefix|GetFailedReason)",
+    "PC(Set|Get)ApplicationContext|PC(Destroy|SetType|GetType|GetFailedReason)",
     "PCFieldSplit(SetIS|SetType|SetSchurPre|SetSchurFactType|GetSubKSP)",
     // partition
     "MatCreateMPIAdj|MatPartitioning(Create|Destroy|SetAdjacency|SetType|SetNParts|SetVertexWeights)",

@@ -48,12 +48,4 @@ impl Order {
             Self::P2 => 2,
         }
     }
-
-    /// Nodes of a triangle.
-    pub fn nodes(self) -> usize {
-        match self {
-            Self::P1 => 3,
-            Self::P2 => 6,
-        }
-    }
 }

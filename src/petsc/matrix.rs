@@ -6,7 +6,7 @@ use super::index::Index;
 use super::session::Session;
 use super::vector::{Vector, length};
 use std::ops::Range;
-use std::{ptr, slice};
+use std::ptr;
 
 /// A matrix whose rows lie in consecutive ranges on the ranks: sparse ([`Matrix::aij`]), two by two of others
 /// ([`Matrix::nest`]) or an action
@@ -97,17 +97,6 @@ impl Matrix {
         petsc!(MatAssemblyEnd(self.raw, ffi::MatAssemblyType::MAT_FINAL_ASSEMBLY))
     }
 
-    /// Shows a row of this rank: its global columns and its values; after [`Matrix::assemble`].
-    pub fn row(&self, row: usize, mut show: impl FnMut(&[Index], &[f64])) -> Result<()> {
-        let (mut count, mut columns, mut values) = (0, ptr::null(), ptr::null());
-        petsc!(MatGetRow(self.raw, length(row), &mut count, &mut columns, &mut values))?;
-        if count > 0 {
-            let count = count as usize;
-            show(unsafe { slice::from_raw_parts(columns, count) }, unsafe { slice::from_raw_parts(values, count) });
-        }
-        petsc!(MatRestoreRow(self.raw, length(row), &mut count, &mut columns, &mut values))
-    }
-
     /// Sets every stored entry to zero and keeps the pattern. **Collective**
     pub fn zero_entries(&mut self) -> Result<()> {
         petsc!(MatZeroEntries(self.raw))
@@ -116,11 +105,6 @@ impl Matrix {
     /// `y = A x`. **Collective**
     pub fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         petsc!(MatMult(self.raw, x.raw(), y.raw()))
-    }
-
-    /// `y = Aᵀ x`. **Collective**
-    pub fn multiply_transpose(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        petsc!(MatMultTranspose(self.raw, x.raw(), y.raw()))
     }
 
     /// `y += A x`. **Collective**

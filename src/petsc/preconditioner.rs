@@ -40,13 +40,6 @@ impl Preconditioner {
         words(kind)
     }
 
-    /// What its options begin with after the minus; may be empty.
-    pub fn prefix(&self) -> String {
-        let mut prefix = ptr::null();
-        petsc!(PCGetOptionsPrefix(self.raw, &mut prefix)).expect("a preconditioner knows its prefix");
-        words(prefix)
-    }
-
     /// Whether something failed on this rank when it was prepared or applied last.
     pub fn has_failed(&self) -> Result<bool> {
         Ok(self.failed_by()? != ffi::PCFailedReason::PC_NOERROR)

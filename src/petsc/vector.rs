@@ -79,13 +79,6 @@ impl Vector {
         Ok(norm)
     }
 
-    /// Inner product with `other`. **Collective**
-    pub fn dot(&self, other: &Self) -> Result<f64> {
-        let mut product = 0.0;
-        petsc!(VecDot(self.raw, other.raw, &mut product))?;
-        Ok(product)
-    }
-
     /// `self += factor · other`. **Collective**
     pub fn axpy(&mut self, factor: f64, other: &Self) -> Result<()> {
         petsc!(VecAXPY(self.raw, factor, other.raw))
@@ -94,11 +87,6 @@ impl Vector {
     /// Takes the values of `other`, of the same layout. **Collective**
     pub fn copy_from(&mut self, other: &Self) -> Result<()> {
         petsc!(VecCopy(other.raw, self.raw))
-    }
-
-    /// `self *= factor`. **Collective**
-    pub fn scale(&mut self, factor: f64) -> Result<()> {
-        petsc!(VecScale(self.raw, factor))
     }
 
     /// Number of entries on this rank.

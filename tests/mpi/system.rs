@@ -139,7 +139,7 @@ impl<'a> Definition<'a> {
     fn new(problem: &'a Discretisation, session: &'a Session) -> Self {
         let load = vec![0.0; problem.finest().local_unknowns()];
         let mut elastic = Elastic::alone(problem, load, Form::Plain, session).expect("a stiffness");
-        let stiffness = elastic.stiffness.pop().expect("a level").into_stored().expect("all rows");
+        let stiffness = elastic.stiffness.pop().expect("a level").operator().share().expect("shared");
         let scale = |contact: &Contact| -> Vec<f64> {
             (0..contact.multipliers.count()).map(|i| contact.multiplier_moduli[i] / contact.multipliers.length(i)).collect()
         };

@@ -138,11 +138,6 @@ impl LatticeOperator {
         (rows.nodes.len() == self.own.len() && (is_single || rows.near.is_unshared())).then(|| SweepRows::new(&rows, is_single))
     }
 
-    /// In which order rows are worked on.
-    pub fn order(&self) -> &SweepOrder {
-        &self.order
-    }
-
     /// All rows: those of even macro triangles with the `stored` ones.
     pub fn lattice_rows<'a>(&'a self, stored: &'a StoredRows) -> LatticeRows<'a> {
         LatticeRows { even: &self.even, stored, order: &self.order }

@@ -157,11 +157,6 @@ impl Stiffness {
         &self.lattice
     }
 
-    /// The matrix of all rows, if there is one.
-    pub fn into_stored(self) -> Option<Matrix> {
-        (self.seen == SolverView::Entries).then_some(self.matrix)
-    }
-
     /// Adds blocks to the couplings of a node of contact, one of this rank's. Holds after [`Stiffness::assemble`].
     pub fn add_to_row(&mut self, places: RowPlaces, blocks: &[Block]) {
         self.lattice.add_to_row(places, blocks);

@@ -48,9 +48,4 @@ impl SweepOrder {
         let [near_sides, far_sides] = sides;
         Self { near_sides, far_sides, inside }
     }
-
-    /// Stored rows on sides, in their order.
-    pub fn sides(&self) -> impl Iterator<Item = usize> {
-        self.near_sides.iter().chain(&self.far_sides).flat_map(Clone::clone)
-    }
 }

@@ -41,11 +41,6 @@ impl BorderBlocks {
         DVector::from_iterator(rigid.len(), rigid.iter().map(|component| component.arm))
     }
 
-    /// Whether no product knows of any motion.
-    pub fn is_empty(&self) -> bool {
-        self.linked.is_empty()
-    }
-
     /// `Wᵀ x` of what is linked. **Collective**
     pub fn sums(&self, x: &[f64]) -> BorderValues {
         let (u, lambda) = x.split_at(self.unknowns);
