@@ -185,7 +185,8 @@ impl LatticeOperator {
     pub fn residual(&self, b: &[[f64; 2]], x: &[[f64; 2]], r: &mut [[f64; 2]]) {
         let (stored, mut far) = (self.rows.borrow(), vec![[0.0; 2]; self.far.len()]);
         self.halo.fetch(x, &mut far, || self.even.residual(true, b, x, &[], r));
-        self.lattice_rows(&stored).residual_in_others(b, x, &far, r);
+        self.even.residual(false, b, x, &far, r);
+        stored.residual(0..stored.nodes.len(), b, x, &far, r);
     }
 
     /// A Gauss-Seidel sweep over the nodes here, those of other ranks staying as they are. **Collective**
@@ -200,7 +201,8 @@ impl LatticeOperator {
     pub fn multiply(&self, x: &[[f64; 2]], y: &mut [[f64; 2]]) {
         let (stored, mut far) = (self.rows.borrow(), vec![[0.0; 2]; self.far.len()]);
         self.halo.fetch(x, &mut far, || self.even.multiply(true, x, &[], y));
-        self.lattice_rows(&stored).multiply_in_others(x, &far, y);
+        self.even.multiply(false, x, &far, y);
+        stored.multiply(0..stored.nodes.len(), x, &far, y);
     }
 }
 

@@ -15,18 +15,6 @@ pub struct LatticeRows<'a> {
 }
 
 impl LatticeRows<'_> {
-    /// `y = K x` at all other nodes; `far` are the values of other ranks, none stands for zeros.
-    pub fn multiply_in_others(&self, x: &[[f64; 2]], far: &[[f64; 2]], y: &mut [[f64; 2]]) {
-        self.even.multiply(false, x, far, y);
-        self.stored.multiply(0..self.stored.nodes().len(), x, far, y);
-    }
-
-    /// `r = b - K x` at all other nodes.
-    pub fn residual_in_others(&self, b: &[[f64; 2]], x: &[[f64; 2]], far: &[[f64; 2]], r: &mut [[f64; 2]]) {
-        self.even.residual(false, b, x, far, r);
-        self.stored.residual(0..self.stored.nodes().len(), b, x, far, r);
-    }
-
     /// The first part of a Gauss-Seidel sweep: forward through the sides that need no node of another rank.
     pub fn begin_to_relax(&self, b: &[[f64; 2]], x: &mut [[f64; 2]]) {
         self.order.near_sides.iter().for_each(|range| self.stored.forward(range.clone(), b, x, &[]));
