@@ -19,7 +19,7 @@ impl Gather {
     /// Prepares to fetch the entries `indices` (global, any order, repeats allowed, each rank its own)
     /// from vectors laid out like `layout`. **Collective**
     pub fn new(layout: &Vector, indices: &[Index]) -> Result<Self> {
-        let session = layout.session();
+        let session = &layout.session;
         let alone = unsafe { mpi::ffi::RSMPI_COMM_SELF };
         let mut from = ptr::null_mut();
         petsc!(ISCreateGeneral(
@@ -32,7 +32,7 @@ impl Gather {
         let from = IndexSet::from_raw(session, from);
         let arrived = Vector::alone(session, indices.len())?;
         let mut raw = ptr::null_mut();
-        petsc!(VecScatterCreate(layout.raw(), from.raw(), arrived.raw(), ptr::null_mut(), &mut raw))?;
+        petsc!(VecScatterCreate(layout.raw, from.raw, arrived.raw, ptr::null_mut(), &mut raw))?;
         Ok(Self { raw, arrived })
     }
 
@@ -45,8 +45,8 @@ impl Gather {
     /// one is borrowed for as long. **Collective**
     pub fn read(&mut self, vector: &Vector) -> Result<impl Deref<Target = [f64]> + '_> {
         let (insert, forward) = (ffi::InsertMode::INSERT_VALUES, ffi::ScatterMode::SCATTER_FORWARD);
-        petsc!(VecScatterBegin(self.raw, vector.raw(), self.arrived.raw(), insert, forward))?;
-        petsc!(VecScatterEnd(self.raw, vector.raw(), self.arrived.raw(), insert, forward))?;
+        petsc!(VecScatterBegin(self.raw, vector.raw, self.arrived.raw, insert, forward))?;
+        petsc!(VecScatterEnd(self.raw, vector.raw, self.arrived.raw, insert, forward))?;
         Ok(self.arrived.values())
     }
 }

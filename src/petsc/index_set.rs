@@ -8,7 +8,7 @@ use std::ptr;
 
 /// A distributed set of global numbers, such as the unknowns of one field.
 pub struct IndexSet {
-    raw: ffi::IS,
+    pub(super) raw: ffi::IS,
     _session: Session,
 }
 
@@ -16,10 +16,6 @@ impl IndexSet {
     /// Takes over one reference to an index set of PETSc's.
     pub(super) fn from_raw(session: &Session, raw: ffi::IS) -> Self {
         Self { raw, _session: session.clone() }
-    }
-
-    pub(super) fn raw(&self) -> ffi::IS {
-        self.raw
     }
 
     /// The numbers on this rank.

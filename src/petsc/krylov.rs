@@ -12,7 +12,7 @@ use std::ptr;
 
 /// A Krylov method with its preconditioner.
 pub struct Krylov {
-    raw: ffi::KSP,
+    pub(super) raw: ffi::KSP,
     session: Session,
 }
 
@@ -49,10 +49,6 @@ impl Krylov {
         Self { raw, session: session.clone() }.recording_residuals()
     }
 
-    pub(super) fn raw(&self) -> ffi::KSP {
-        self.raw
-    }
-
     fn recording_residuals(self) -> Result<Self> {
         petsc!(mezha_record_residuals(self.raw))?;
         Ok(self)
@@ -60,7 +56,7 @@ impl Krylov {
 
     /// Sets the matrix of the system and the one the preconditioner is built from, often the same. **Collective**
     pub fn set_operators(&self, system: &Matrix, preconditioner: &Matrix) -> Result<()> {
-        petsc!(KSPSetOperators(self.raw, system.raw(), preconditioner.raw()))
+        petsc!(KSPSetOperators(self.raw, system.raw, preconditioner.raw))
     }
 
     /// Stops when the residual is below `relative · |b|`, or gives up after `max_iterations`. **Collective**
@@ -94,7 +90,7 @@ impl Krylov {
     /// Solves `A x = b`; a method that gives up is no error: `converged` tells, `x` holds the last iterate.
     /// **Collective**
     pub fn solve_allowing(&self, b: &Vector, x: &mut Vector) -> Result<KrylovEnding> {
-        petsc!(KSPSolve(self.raw, b.raw(), x.raw()))?;
+        petsc!(KSPSolve(self.raw, b.raw, x.raw))?;
         let mut reason = ffi::KSPConvergedReason::KSP_CONVERGED_ITERATING;
         let (mut iterations, mut residual) = (0, 0.0);
         petsc!(KSPGetConvergedReason(self.raw, &mut reason))?;
@@ -109,7 +105,7 @@ impl Krylov {
 
     /// `x = A⁻¹ b` as the method gives it, whatever its reason to stop: for methods of one step. **Collective**
     pub fn apply(&self, b: &Vector, x: &mut Vector) -> Result<()> {
-        petsc!(KSPSolve(self.raw, b.raw(), x.raw()))
+        petsc!(KSPSolve(self.raw, b.raw, x.raw))
     }
 
     /// Name of the reason to stop, and what failed in the preconditioner.

@@ -13,8 +13,8 @@ use std::ptr;
 /// ([`Matrix::operator`], [`Matrix::transfer`]). It has one owner, who alone can change it; a nest and a solver keep references of
 /// PETSc's own to the matrices they are made of, and see their changes.
 pub struct Matrix {
-    raw: ffi::Mat,
-    session: Session,
+    pub(super) raw: ffi::Mat,
+    pub(super) session: Session,
     /// Rows and columns per block of [`Matrix::insert_blocks`].
     block: usize,
 }
@@ -51,14 +51,6 @@ impl Matrix {
     /// Takes over one reference to a matrix of PETSc's.
     pub(super) fn from_raw(session: &Session, raw: ffi::Mat) -> Self {
         Self { raw, session: session.clone(), block: 1 }
-    }
-
-    pub(super) fn raw(&self) -> ffi::Mat {
-        self.raw
-    }
-
-    pub(super) fn session(&self) -> &Session {
-        &self.session
     }
 
     /// Puts a dense block in place of what is in the rows and columns of these blocks (global block numbers; negative ones are
@@ -104,17 +96,17 @@ impl Matrix {
 
     /// `y = A x`. **Collective**
     pub fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        petsc!(MatMult(self.raw, x.raw(), y.raw()))
+        petsc!(MatMult(self.raw, x.raw, y.raw))
     }
 
     /// `y += A x`. **Collective**
     pub fn multiply_add(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        petsc!(MatMultAdd(self.raw, x.raw(), y.raw(), y.raw()))
+        petsc!(MatMultAdd(self.raw, x.raw, y.raw, y.raw))
     }
 
     /// `r = b - A x`. **Collective**
     pub fn residual(&self, b: &Vector, x: &Vector, r: &mut Vector) -> Result<()> {
-        petsc!(MatResidual(self.raw, b.raw(), x.raw(), r.raw()))
+        petsc!(MatResidual(self.raw, b.raw, x.raw, r.raw))
     }
 
     /// Largest sum of magnitudes in a row. **Collective**

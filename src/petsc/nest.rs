@@ -39,7 +39,7 @@ impl Matrix {
     /// Vectors from [`Matrix::create_vectors`] are plain ones, with a rank's entries in that order. **Collective**
     pub fn nest(session: &Session, blocks: [[&Matrix; 2]; 2]) -> Result<Self> {
         let mut raw = ptr::null_mut();
-        let all = blocks.as_flattened().iter().map(|block| block.raw()).collect::<Vec<_>>();
+        let all = blocks.as_flattened().iter().map(|block| block.raw).collect::<Vec<_>>();
         petsc!(MatCreateNest(session.raw(), 2, ptr::null(), 2, ptr::null(), all.as_ptr(), &mut raw))?;
         Ok(Self::from_raw(session, raw))
     }
@@ -60,8 +60,8 @@ impl Matrix {
 
     /// Another reference to the matrix: both have the same entries.
     pub fn share(&self) -> Result<Self> {
-        petsc!(PetscObjectReference(self.raw().cast()))?;
-        Ok(Self::from_raw(self.session(), self.raw()))
+        petsc!(PetscObjectReference(self.raw.cast()))?;
+        Ok(Self::from_raw(&self.session, self.raw))
     }
 
     /// Global row numbers of the upper and of the lower blocks.
@@ -70,9 +70,9 @@ impl Matrix {
     /// If the matrix is not a nest.
     pub fn nest_index_sets(&self) -> Result<[IndexSet; 2]> {
         let mut rows = [ptr::null_mut(); 2];
-        petsc!(MatNestGetISs(self.raw(), rows.as_mut_ptr(), ptr::null_mut()))?;
+        petsc!(MatNestGetISs(self.raw, rows.as_mut_ptr(), ptr::null_mut()))?;
         let [upper, lower] =
-            rows.map(|set| petsc!(PetscObjectReference(set.cast())).map(|()| IndexSet::from_raw(self.session(), set)));
+            rows.map(|set| petsc!(PetscObjectReference(set.cast())).map(|()| IndexSet::from_raw(&self.session, set)));
         Ok([upper?, lower?])
     }
 

@@ -56,7 +56,7 @@ pub fn partition(
     let graph = Matrix::from_raw(session, graph);
 
     let partitioning = Partitioning::new(session)?;
-    petsc!(MatPartitioningSetAdjacency(partitioning.0, graph.raw()))?;
+    petsc!(MatPartitioningSetAdjacency(partitioning.0, graph.raw))?;
     petsc!(MatPartitioningSetType(partitioning.0, c"ptscotch".as_ptr()))?;
     petsc!(MatPartitioningSetNParts(partitioning.0, length(parts)))?;
     if vertex_weights.iter().any(|weight| *weight != 1) {

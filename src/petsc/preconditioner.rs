@@ -8,8 +8,8 @@ use std::ptr;
 
 /// The preconditioner of a [`super::Krylov`] method.
 pub struct Preconditioner {
-    raw: ffi::PC,
-    session: Session,
+    pub(super) raw: ffi::PC,
+    pub(super) session: Session,
 }
 
 impl Preconditioner {
@@ -17,14 +17,6 @@ impl Preconditioner {
     pub(super) fn share(session: &Session, raw: ffi::PC) -> Result<Self> {
         petsc!(PetscObjectReference(raw.cast()))?;
         Ok(Self { raw, session: session.clone() })
-    }
-
-    pub(super) fn raw(&self) -> ffi::PC {
-        self.raw
-    }
-
-    pub(super) fn session(&self) -> &Session {
-        &self.session
     }
 
     /// Chooses the kind by PETSc's name, such as `"lu"`. **Collective**

@@ -78,7 +78,7 @@ impl Matrix {
     }
 
     fn set_operation(&self, operation: ffi::MatOperation, function: Plain) -> Result<()> {
-        petsc!(MatShellSetOperation(self.raw(), operation, Some(function)))
+        petsc!(MatShellSetOperation(self.raw, operation, Some(function)))
     }
 }
 
@@ -92,11 +92,11 @@ impl Preconditioner {
     pub fn set_action(&self, name: &str, action: Box<dyn Action>) -> Result<()> {
         self.set_kind("shell")?;
         let name = CString::new(name).expect("a name has no zero byte");
-        petsc!(PCShellSetName(self.raw(), name.as_ptr()))?;
-        let context = Box::into_raw(Box::new(Context::<dyn Action> { action, session: self.session().clone() }));
-        petsc!(PCShellSetContext(self.raw(), context.cast()))?;
-        petsc!(PCShellSetDestroy(self.raw(), Some(drop_action)))?;
-        petsc!(PCShellSetApply(self.raw(), Some(apply)))
+        petsc!(PCShellSetName(self.raw, name.as_ptr()))?;
+        let context = Box::into_raw(Box::new(Context::<dyn Action> { action, session: self.session.clone() }));
+        petsc!(PCShellSetContext(self.raw, context.cast()))?;
+        petsc!(PCShellSetDestroy(self.raw, Some(drop_action)))?;
+        petsc!(PCShellSetApply(self.raw, Some(apply)))
     }
 }
 
@@ -117,19 +117,19 @@ struct ActionOfKind {
 impl Action for ActionOfKind {
     fn apply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         let apply = self.apply.expect("the kind of a preconditioner does something");
-        check("PCApply", unsafe { apply(self.preconditioner.raw(), x.raw(), y.raw()) })
+        check("PCApply", unsafe { apply(self.preconditioner.raw, x.raw, y.raw) })
     }
 }
 
 impl ReplacedAction {
     /// Puts an action in the place, which may make use of what the kind does. The preconditioner is set up. **Collective**
     pub fn new(preconditioner: Preconditioner, make: impl FnOnce(Box<dyn Action>) -> Result<Box<dyn Action>>) -> Result<Self> {
-        let session = preconditioner.session().clone();
+        let session = preconditioner.session.clone();
         let mut before = None;
-        petsc!(mezha_replace_apply(preconditioner.raw(), Some(apply_replaced), &mut before))?;
-        let of_kind = ActionOfKind { preconditioner: Preconditioner::share(&session, preconditioner.raw())?, apply: before };
+        petsc!(mezha_replace_apply(preconditioner.raw, Some(apply_replaced), &mut before))?;
+        let of_kind = ActionOfKind { preconditioner: Preconditioner::share(&session, preconditioner.raw)?, apply: before };
         let mut context = Box::new(Context::<dyn Action> { action: make(Box::new(of_kind))?, session });
-        petsc!(PCSetApplicationContext(preconditioner.raw(), ptr::from_mut(&mut *context).cast()))?;
+        petsc!(PCSetApplicationContext(preconditioner.raw, ptr::from_mut(&mut *context).cast()))?;
         Ok(Self { preconditioner, before, _context: context })
     }
 }
@@ -138,7 +138,7 @@ impl Drop for ReplacedAction {
     /// The kind does again what it did before.
     fn drop(&mut self) {
         let mut replaced = None;
-        unsafe { ffi::mezha_replace_apply(self.preconditioner.raw(), self.before, &mut replaced) };
+        unsafe { ffi::mezha_replace_apply(self.preconditioner.raw, self.before, &mut replaced) };
     }
 }
 

@@ -9,8 +9,8 @@ use std::{ptr, slice};
 
 /// A vector whose entries lie in consecutive ranges on the ranks.
 pub struct Vector {
-    raw: ffi::Vec,
-    session: Session,
+    pub(super) raw: ffi::Vec,
+    pub(super) session: Session,
 }
 
 impl Vector {
@@ -41,14 +41,6 @@ impl Vector {
         let mut raw = ptr::null_mut();
         petsc!(VecDuplicate(self.raw, &mut raw))?;
         Self::from_raw(&self.session, raw)
-    }
-
-    pub(super) fn raw(&self) -> ffi::Vec {
-        self.raw
-    }
-
-    pub(super) fn session(&self) -> &Session {
-        &self.session
     }
 
     /// The entries of this rank, to read.

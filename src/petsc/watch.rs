@@ -58,7 +58,7 @@ impl Drop for WatchedSolve {
 impl Krylov {
     /// Notes its iterations: it costs a few stores for each, and changes nothing. **Collective**
     pub fn watch(&self) -> Result<()> {
-        petsc!(KSPMonitorSet(self.raw(), Some(note), ptr::null_mut(), None))
+        petsc!(KSPMonitorSet(self.raw, Some(note), ptr::null_mut(), None))
     }
 }
 

@@ -28,9 +28,9 @@ impl Window {
     /// If there are not as many as the window has.
     pub fn read<T>(&self, values: &[f64], with: impl FnOnce(&Vector) -> Result<T>) -> Result<T> {
         assert_eq!(values.len(), self.0.local_len(), "as many values as the window has");
-        petsc!(VecPlaceArray(self.0.raw(), values.as_ptr()))?;
+        petsc!(VecPlaceArray(self.0.raw, values.as_ptr()))?;
         let outcome = with(&self.0);
-        petsc!(VecResetArray(self.0.raw()))?;
+        petsc!(VecResetArray(self.0.raw))?;
         outcome
     }
 
@@ -40,9 +40,9 @@ impl Window {
     /// If there are not as many as the window has.
     pub fn write<T>(&mut self, values: &mut [f64], with: impl FnOnce(&mut Vector) -> Result<T>) -> Result<T> {
         assert_eq!(values.len(), self.0.local_len(), "as many values as the window has");
-        petsc!(VecPlaceArray(self.0.raw(), values.as_mut_ptr()))?;
+        petsc!(VecPlaceArray(self.0.raw, values.as_mut_ptr()))?;
         let outcome = with(&mut self.0);
-        petsc!(VecResetArray(self.0.raw()))?;
+        petsc!(VecResetArray(self.0.raw))?;
         outcome
     }
 }
