@@ -43,7 +43,7 @@ pub fn jumps(multipliers: &Multipliers, edges: &[f64], moduli: &[f64]) -> Vec<Ju
         MultiplierSpace::P1Continuous => Vec::new(),
         _ => {
             let count = multipliers.count();
-            let across_the_seam = multipliers.go_round().then_some([count - 1, 0]).filter(|_| count > 2);
+            let across_the_seam = multipliers.closed.then_some([count - 1, 0]).filter(|_| count > 2);
             (1..count).map(|i| [i - 1, i]).chain(across_the_seam).collect()
         }
     };

@@ -62,7 +62,8 @@ pub struct Multipliers {
     /// Mean widths across the plane, `∫ψ_i w ds / ∫ψ_i ds`.
     widths: Vec<f64>,
     /// Whether the last segment is followed by the first.
-    closed: bool,
+    /// Whether the last segment is followed by the first.
+    pub closed: bool,
 }
 
 impl Multipliers {
@@ -102,11 +103,6 @@ impl Multipliers {
             MultiplierSpace::P1Continuous if self.closed => segments,
             MultiplierSpace::P1Continuous => segments + 1,
         }
-    }
-
-    /// Whether the last segment is followed by the first.
-    pub fn go_round(&self) -> bool {
-        self.closed
     }
 
     /// Multipliers of segment `k` with their values at the fraction `z` of the segment; the second is unused for P0.

@@ -52,11 +52,11 @@ pub struct SmoothSide {
     /// Parameters of the nodes.
     pub parameters: Vec<f64>,
     /// +1 if the body lies on the left of the curve, -1 if on the right.
-    hand: f64,
+    pub hand: f64,
     /// Length of an edge, in nodes.
     degree: usize,
     /// Smooth shape of the undeformed side as it is known: declared, straight, or a spline through the vertices of the mesh file.
-    shape: Curve,
+    pub shape: Curve,
     undeformed: Curve,
     deformed: Curve,
     /// Whether it closes in itself.
@@ -214,16 +214,6 @@ impl SmoothSide {
     pub fn looks_at(&self, parameter: f64, other: &Self, foot: f64, configuration: Configuration) -> bool {
         let [one, two] = [self.curve(configuration).tangent(parameter), other.curve(configuration).tangent(foot)];
         self.hand * other.hand * one.normalize().dot(&two.normalize()) <= LOOKS_BACK
-    }
-
-    /// +1 if the body lies on the left of the curve, -1 if on the right.
-    pub fn hand(&self) -> f64 {
-        self.hand
-    }
-
-    /// Smooth shape of the undeformed side, with a parameter of its own.
-    pub fn shape(&self) -> &Curve {
-        &self.shape
     }
 
     /// The point of the undeformed side that is nearest to `x`, and the outward normal there.

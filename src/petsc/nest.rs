@@ -75,9 +75,4 @@ impl Matrix {
             rows.map(|set| petsc!(PetscObjectReference(set.cast())).map(|()| IndexSet::from_raw(&self.session, set)));
         Ok([upper?, lower?])
     }
-
-    /// Tells a nest that entries of its blocks have changed, so that preconditioners are built again. **Collective**
-    pub fn refresh(&mut self) -> Result<()> {
-        self.assemble()
-    }
 }

@@ -100,7 +100,7 @@ fn one(
         return None;
     }
     let is_straight = match sides {
-        Some(sides) => sides.iter().all(|side| side.shape().is_line()),
+        Some(sides) => sides.iter().all(|side| side.shape.is_line()),
         None => contact.boundary.is_straight(),
     };
     let rolls = !is_straight && is_between_tools(problem, contact, &|set| set.prescribed[2].is_none());

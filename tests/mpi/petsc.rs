@@ -328,7 +328,7 @@ fn nest_is_its_blocks(session: &Session) {
     // The nest shares its blocks.
     k.zero_entries().unwrap();
     k.assemble().unwrap();
-    nest.refresh().unwrap();
+    nest.assemble().unwrap();
     b_transpose.multiply(&lambda, &mut top).unwrap();
     nest.multiply(&x, &mut y).unwrap();
     assert_eq!(y.values()[..own_n], *top.values());

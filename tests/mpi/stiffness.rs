@@ -98,7 +98,7 @@ fn even_triangles_act_like_stored_rows(session: &Session) {
     for problem in problems(session) {
         let [whole, stored] = both(&problem, session);
         let lattice = whole.stiffness[whole.stiffness.len() - 1].lattice();
-        assert!(lattice.rows().borrow().nodes().len() < lattice.node_count(), "there is something to compare");
+        assert!(lattice.rows.borrow().nodes.len() < lattice.node_count(), "there is something to compare");
         let (x, b) = (erratic(&problem, finest(&stored), 0.3), erratic(&problem, finest(&stored), 0.7));
         let [left, right] = [&whole, &stored].map(|elastic| {
             let mut r = x.duplicate().expect("a vector");

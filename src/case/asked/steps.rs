@@ -59,7 +59,7 @@ pub fn check_steps(factors: &[LoadFactor], root: &Section) {
         let words = "stands beside an accuracy, which adapts the mesh to one load; adapt it without steps (--set steps={}), and name the adapted.msh of that result as mesh.file here";
         root.problem(&["steps"], words.into());
     }
-    let Some(written) = root.written() else { return };
+    let Some(written) = root.table else { return };
     let mut known: Vec<(Vec<String>, &LoadFactor)> = Vec::new();
     for factor in factors {
         if factor.values.len() != factors[0].values.len() {

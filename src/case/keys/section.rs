@@ -19,8 +19,8 @@ use crate::case::file::log::Log;
 /// # Panics
 /// Where a key is asked for that is not in the table of keys.
 pub struct Section<'a> {
-    /// None: the table is not in the file, everything has its default.
-    table: Option<&'a Table>,
+    /// This table as it is written; none if it is not in the file: everything has its default.
+    pub table: Option<&'a Table>,
     /// The keys that it may have.
     form: &'static TableForm,
     path: Vec<String>,
@@ -37,11 +37,6 @@ impl<'a> Section<'a> {
     /// Name of this table.
     pub fn name(&self) -> &str {
         self.path.last().map_or("", String::as_str)
-    }
-
-    /// This table as it is written, if it is in the file.
-    pub fn written(&self) -> Option<&'a Table> {
-        self.table
     }
 
     /// Whether a key is written in the file.

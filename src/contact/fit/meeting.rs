@@ -155,7 +155,7 @@ impl Meeting {
         let both = self.sides(sides);
         if let Some(own) = OwnCurve::of_pair(both, pair) {
             let limits = if self.goes_round { own.turn() } else { own.limits(0.5 * (ends[0] + ends[1])) };
-            return Ok((own.curve().clone(), limits));
+            return Ok((own.curve.clone(), limits));
         }
         let bisector = if self.goes_round {
             Bisector::around(both, pair)

@@ -94,22 +94,22 @@ fn bulge(side: &SmoothSide, x: Point) -> f64 {
 /// Curvature of a side at a pole: the shape may be known on one side of the axis only.
 fn bulge_at_pole(side: &SmoothSide, x: Point) -> f64 {
     let (t, step) = on_shape(side, x);
-    let goes_out = side.shape().point(t + step).x > side.shape().point(t - step).x;
+    let goes_out = side.shape.point(t + step).x > side.shape.point(t - step).x;
     curvature(side, x, if goes_out { [t, t + step] } else { [t - step, t] })
 }
 
 /// Parameter of the place on a side's shape that is nearest to a point, and the part of it over which the curvature is taken.
 fn on_shape(side: &SmoothSide, x: Point) -> (f64, f64) {
-    let t = side.shape().nearest(x);
-    (t, ALONG * side.length() / side.shape().derivative(t).norm())
+    let t = side.shape.nearest(x);
+    (t, ALONG * side.length() / side.shape.derivative(t).norm())
 }
 
 /// Mean curvature of a side's shape about a place between two of its parameters (1/length), positive where the body bulges.
 fn curvature(side: &SmoothSide, x: Point, [from, to]: [f64; 2]) -> f64 {
-    let (curve, shape) = (side.curve(Configuration::Reference), side.shape());
+    let (curve, shape) = (side.curve(Configuration::Reference), &side.shape);
     let turn = cross(shape.tangent(from), shape.tangent(to)).asin();
     let t = 0.5 * (from + to);
     // A side goes from left to right, however its shape does.
     let along = curve.tangent(side.nearest(x, Configuration::Reference)).dot(&shape.tangent(t)).signum();
-    side.hand() * along * turn / ((to - from) * shape.derivative(t).norm())
+    side.hand * along * turn / ((to - from) * shape.derivative(t).norm())
 }

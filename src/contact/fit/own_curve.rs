@@ -21,7 +21,8 @@ const TOUCHING: f64 = 1e-9;
 pub struct OwnCurve<'a> {
     /// Body 1's side and body 2's, closed ones begun at their seams.
     sides: [&'a SmoothSide; 2],
-    curve: Curve,
+    /// The curve.
+    pub curve: Curve,
     /// Parameter at the middle of the side; on a closed curve parameters lie within half a turn from it.
     middle: f64,
 }
@@ -30,8 +31,8 @@ impl<'a> OwnCurve<'a> {
     /// The shape of the side that Γ_C of a pair lies on, shifted as that is, if it lies on one; closed sides are begun at their seams.
     pub fn of_pair(sides: [&'a SmoothSide; 2], pair: &Pair) -> Option<Self> {
         let side = sides[pair.curve.own_side()? as usize];
-        let middle = side.shape().nearest(side.places[side.places.len() / 2]);
-        Some(Self { sides, curve: side.shape().moved(side.shift), middle })
+        let middle = side.shape.nearest(side.places[side.places.len() / 2]);
+        Some(Self { sides, curve: side.shape.moved(side.shift), middle })
     }
 
     /// How far Γ_C is shifted from the side that it has the shape of, for each side (length).
@@ -41,11 +42,6 @@ impl<'a> OwnCurve<'a> {
             shifts[own] = shortest_way(sides[own], sides[1 - own]).unwrap_or_default();
         }
         shifts
-    }
-
-    /// The curve.
-    pub fn curve(&self) -> &Curve {
-        &self.curve
     }
 
     /// One whole turn from the beginning of a closed curve; all of an open one.
@@ -139,7 +135,7 @@ mod tests {
             assert!((way - Point::new(0.0, if shifted { -lift } else { 0.0 })).norm() < 1e-12, "{way}");
             let laid = second.laid(0, way);
             let own = OwnCurve::of_pair([first, &laid], &pair).expect("on the second");
-            let ends = own.limits(0.5).map(|t| own.curve().point(t));
+            let ends = own.limits(0.5).map(|t| own.curve.point(t));
             let y = if shifted { 1.0 } else { 1.0 + lift };
             for (x, end) in [0.0, 2.0].into_iter().zip(if ends[0].x < ends[1].x { ends } else { [ends[1], ends[0]] }) {
                 assert!((end - Point::new(x, y)).norm() < 1e-12, "{end}");

@@ -46,7 +46,8 @@ pub struct Numbering {
     /// The level that is numbered.
     pub level: Level,
     first: Vec<usize>,
-    partition: Rc<Partition>,
+    /// Which rank owns what on it.
+    pub partition: Rc<Partition>,
 }
 
 impl Numbering {
@@ -70,11 +71,6 @@ impl Numbering {
     /// Numbers of the nodes that a rank owns.
     pub fn range(&self, rank: usize) -> Range<usize> {
         self.first[rank]..self.first[rank + 1]
-    }
-
-    /// Which rank owns what on this level.
-    pub fn partition(&self) -> &Partition {
-        &self.partition
     }
 
     fn start(&self, home: Home) -> usize {

@@ -51,7 +51,7 @@ impl GalerkinProduct {
         let own = coarsening.coarse.own(session.rank());
         let mut pattern = vec![Vec::new(); own.len()];
         let (mut foreign, mut pairs, mut ranks) = (Vec::new(), Vec::new(), Vec::new());
-        let rows = step.columns(&fine.rows().borrow()).into_iter().enumerate();
+        let rows = step.columns(&fine.rows.borrow()).into_iter().enumerate();
         for (known, columns) in rows.filter(|(_, columns)| !columns.is_empty()) {
             let number = step.known[known];
             let numbers = columns.iter().map(|&column| step.known[column as usize]);
@@ -86,7 +86,7 @@ impl GalerkinProduct {
 
     /// Makes those rows of the product again that some rows of the level above have a part in; which ones. **Collective**
     pub fn refresh(&mut self, fine: &LatticeOperator, changed: impl Iterator<Item = u32>, product: &LatticeOperator) -> Vec<u32> {
-        let (fine, mut product) = (fine.rows().borrow(), product.rows().borrow_mut());
+        let (fine, mut product) = (fine.rows.borrow(), product.rows.borrow_mut());
         let (is_changed, mut place) = (self.step.above(changed), vec![NONE; self.step.known.len()]);
         for ForeignRow { known, columns, first } in self.foreign.iter().filter(|row| is_changed[row.known]) {
             columns.iter().zip(0..).for_each(|(&column, at)| place[column as usize] = at);

@@ -77,9 +77,9 @@ impl Coarsest {
 
 /// **Collective**
 fn factor(lattice: &LatticeOperator, session: &Session) -> Result<Option<Box<SparseFactor>>> {
-    assert_eq!(lattice.far_count(), 0, "one rank has all nodes of the coarsest level");
+    assert_eq!(lattice.far.len(), 0, "one rank has all nodes of the coarsest level");
     let unknowns = 2 * lattice.node_count();
-    let new = || SparseFactor::new(unknowns, &lattice.rows().borrow().lower_entries()).map(Box::new);
+    let new = || SparseFactor::new(unknowns, &lattice.rows.borrow().lower_entries()).map(Box::new);
     let factor = (unknowns > 0).then(new).transpose();
     let is_singular = session.any(factor.is_err());
     factor.ok().filter(|_| !is_singular).ok_or(Error::Singular)

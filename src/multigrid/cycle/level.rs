@@ -31,8 +31,8 @@ impl CycleLevel {
     /// With the interpolation from the next coarser level; smoothed by a sweep, or by so many steps of CG.
     pub fn new(lattice: Rc<LatticeOperator>, step: Rc<NodeInterpolation>, steps: usize, session: &Session) -> Self {
         let sweep_rows = lattice.sweep_rows();
-        let is_fused = sweep_rows.is_none() && step.is_of(lattice.even().triangles.iter().map(|of| of.inner.clone()));
-        let (nodes, far) = (lattice.node_count(), vec![[0.0; 2]; lattice.far_count()]);
+        let is_fused = sweep_rows.is_none() && step.is_of(lattice.even.triangles.iter().map(|of| of.inner.clone()));
+        let (nodes, far) = (lattice.node_count(), vec![[0.0; 2]; lattice.far.len()]);
         let (b, x, room) = (Vec::new(), Vec::new(), InterpolationRoom::default());
         let steps = (steps > 0).then(|| ConjugateSteps::new(steps, nodes, session));
         Self { lattice, step, sweep_rows, steps, is_fused, b, x, far, room, nodes }
@@ -49,7 +49,7 @@ impl CycleLevel {
     pub fn refresh(&mut self) {
         let changed = self.lattice.take_changed_rows();
         if let Some(rows) = &mut self.sweep_rows {
-            rows.refresh(&self.lattice.rows().borrow(), changed.into_iter().map(|k| k as usize));
+            rows.refresh(&self.lattice.rows.borrow(), changed.into_iter().map(|k| k as usize));
         }
     }
 
@@ -57,8 +57,8 @@ impl CycleLevel {
     fn residual(&mut self, b: &[[f64; 2]], x: &[[f64; 2]], r: &mut [[f64; 2]]) {
         let Self { lattice, far, sweep_rows, .. } = self;
         let Some(rows) = sweep_rows else { return lattice.residual(b, x, r) };
-        lattice.halo().fetch(x, far, || ());
-        rows.residual(&lattice.rows().borrow(), b, x, far, r);
+        lattice.halo.fetch(x, far, || ());
+        rows.residual(&lattice.rows.borrow(), b, x, far, r);
     }
 
     /// Restricts the residual `b - K x` behind a sweep of these `b` and `x` to the next coarser level; `r` has room for it.
@@ -73,10 +73,10 @@ impl CycleLevel {
             return self.restrict(r, below);
         }
         let Self { lattice, far, step, room, .. } = self;
-        let stored = lattice.rows().borrow();
-        let even = lattice.even();
-        lattice.halo().fetch(x, far, || ());
-        stored.residual(0..stored.nodes().len(), b, x, far, r);
+        let stored = lattice.rows.borrow();
+        let even = &lattice.even;
+        lattice.halo.fetch(x, far, || ());
+        stored.residual(0..stored.nodes.len(), b, x, far, r);
         step.restrict_from(even.groups(), |k, own| even.residual_of(k, b, x, far, own), r, below, room);
     }
 
@@ -103,8 +103,8 @@ impl CycleLevel {
         }
         let Self { lattice, far, sweep_rows, .. } = self;
         let Some(rows) = sweep_rows else { return lattice.relax(sweep, b, x) };
-        lattice.halo().fetch(x, far, || ());
-        rows.relax(&lattice.rows().borrow(), b, x, far);
+        lattice.halo.fetch(x, far, || ());
+        rows.relax(&lattice.rows.borrow(), b, x, far);
     }
 
     /// The forward half of a sweep from zero, whatever `x` holds. Or steps of CG. **Collective**
@@ -112,7 +112,7 @@ impl CycleLevel {
         if self.steps.is_some() {
             return self.smooth(true, b, x);
         }
-        let stored = self.lattice.rows().borrow();
+        let stored = self.lattice.rows.borrow();
         match &mut self.sweep_rows {
             Some(rows) => rows.relax_from_zero(&stored, b, x),
             None => self.lattice.lattice_rows(&stored).relax_from_zero(b, x),
@@ -124,7 +124,7 @@ impl CycleLevel {
         // With steps of CG nothing else writes `far`: zeros.
         let Self { lattice, steps: Some(steps), far, sweep_rows, .. } = self else { return };
         let sweep = |r: &[[f64; 2]], z: &mut [[f64; 2]]| {
-            let stored = lattice.rows().borrow();
+            let stored = lattice.rows.borrow();
             z.fill([0.0; 2]);
             match sweep_rows {
                 Some(rows) => rows.relax(&stored, r, z, far),

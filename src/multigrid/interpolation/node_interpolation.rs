@@ -85,8 +85,8 @@ impl NodeInterpolation {
         let (level, rank) = (fine.numbering.level, session.rank());
         // Where the coarse level is on fewer ranks, a macro triangle may have its coarse nodes on another one: then its fine nodes
         // are in lists.
-        let is_here = |triangle: &u32| coarse.numbering.partition().owner(*triangle) == rank;
-        let mut here: Vec<u32> = fine.numbering.partition().triangles_of(rank).iter().copied().filter(is_here).collect();
+        let is_here = |triangle: &u32| coarse.numbering.partition.owner(*triangle) == rank;
+        let mut here: Vec<u32> = fine.numbering.partition.triangles_of(rank).iter().copied().filter(is_here).collect();
         here.sort_unstable();
         let (whole, others): (Vec<u32>, Vec<u32>) =
             here.into_iter().partition(|&triangle| scene.mesh.is_whole(triangle as usize, level));

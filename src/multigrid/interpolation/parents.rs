@@ -21,7 +21,7 @@ impl NodeParents {
         let n = fine.numbering.level.intervals;
         let mut seen = vec![false; fine.own.len()];
         let mut rows = Self { nodes: Vec::new(), graded: HashMap::new() };
-        for &triangle in fine.numbering.partition().triangles_of(rank) {
+        for &triangle in fine.numbering.partition.triangles_of(rank) {
             let numbers = fine.numbering.triangle(&scene.mesh, triangle as usize);
             let below = coarse.numbering.triangle(&scene.mesh, triangle as usize);
             let rest = (0..=n).flat_map(|j| {

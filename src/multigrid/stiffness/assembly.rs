@@ -50,7 +50,7 @@ impl<'a> Assembly<'a> {
     /// With even macro triangles as wholes, or with all rows stored.
     pub fn new(scene: &'a Scene, space: &'a Space, with_whole: bool, rank: usize) -> Self {
         let level = space.numbering.level;
-        let partition = space.numbering.partition();
+        let partition = &space.numbering.partition;
         let part = |&triangle: &u32| {
             let triangle = triangle as usize;
             let numbers = space.numbering.triangle(&scene.mesh, triangle);

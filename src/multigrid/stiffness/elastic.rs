@@ -50,7 +50,7 @@ impl Elastic {
     /// The same without places for contact: for boundaries that move, each of which has its own. **Collective**
     pub fn alone(problem: &Discretisation, load: Vec<f64>, form: Form, session: &Session) -> Result<Self, SystemError> {
         let elastic = Self::new(problem, load, form, &vec![ContactNeighbours::new(); problem.spaces.len()], session)?;
-        elastic.stiffness.iter().for_each(|stiffness| stiffness.lattice().rows().borrow_mut().keep());
+        elastic.stiffness.iter().for_each(|stiffness| stiffness.lattice().rows.borrow_mut().keep());
         Ok(elastic)
     }
 

@@ -19,16 +19,18 @@ pub struct LatticeOperator {
     pub(crate) own: Range<usize>,
     /// Inner nodes of each macro triangle whose inner rows are stored, ascending.
     inside: Rc<[Range<usize>]>,
-    pub(crate) even: Rc<EvenTriangles>,
-    pub(crate) rows: Rc<RefCell<StoredRows>>,
+    /// The even macro triangles.
+    pub even: Rc<EvenTriangles>,
+    /// The stored rows.
+    pub rows: Rc<RefCell<StoredRows>>,
     /// Stored rows with other values since somebody took them, each perhaps several times.
     changed: RefCell<Vec<u32>>,
     /// Columns of other ranks, ascending.
-    pub(crate) far: Vec<usize>,
+    pub far: Vec<usize>,
     /// Couplings of all inner nodes of even macro triangles.
     in_even: f64,
     /// What brings the values of the columns of other ranks.
-    halo: Rc<Halo>,
+    pub halo: Rc<Halo>,
     order: SweepOrder,
     /// Whether it is a Galerkin product, of functions that may be nearly multiples of each other.
     is_product: bool,
@@ -143,29 +145,9 @@ impl LatticeOperator {
         LatticeRows { even: &self.even, stored, order: &self.order }
     }
 
-    /// The stored rows.
-    pub fn rows(&self) -> &Rc<RefCell<StoredRows>> {
-        &self.rows
-    }
-
-    /// What brings the values of other ranks' nodes.
-    pub fn halo(&self) -> &Rc<Halo> {
-        &self.halo
-    }
-
     /// Nodes of this rank.
     pub fn node_count(&self) -> usize {
         self.own.len()
-    }
-
-    /// Nodes of other ranks that the rows here couple to.
-    pub fn far_count(&self) -> usize {
-        self.far.len()
-    }
-
-    /// The even macro triangles.
-    pub fn even(&self) -> &Rc<EvenTriangles> {
-        &self.even
     }
 
     /// Shows the rows of all inner nodes of even macro triangles: couplings with nodes by their numbers, that with itself

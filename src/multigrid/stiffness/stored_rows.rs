@@ -16,7 +16,7 @@ const FEW: usize = 32;
 #[derive(Clone, Default)]
 pub struct StoredRows {
     /// The nodes, ascending, counted from this rank's first.
-    pub(crate) nodes: Vec<u32>,
+    pub nodes: Vec<u32>,
     /// Inverses of diagonal blocks.
     pub(crate) inverses: Vec<Block>,
     /// The inverse of each row.
@@ -197,11 +197,6 @@ impl StoredRows {
         self.near.blocks[self.near.firsts[k] as usize..][..near.len()].copy_from_slice(near);
         self.far.blocks[self.far.firsts[k] as usize..][..far.len()].copy_from_slice(far);
         self.invert(k);
-    }
-
-    /// The nodes whose rows these are.
-    pub fn nodes(&self) -> &[u32] {
-        &self.nodes
     }
 
     /// Inverse of the diagonal block of row `k`.

@@ -33,10 +33,10 @@ pub struct SweepOrder {
 impl SweepOrder {
     /// Of the stored rows of some nodes; `inside` are the inner nodes of each macro triangle whose inner rows are stored, ascending.
     pub fn new(rows: &StoredRows, inside: &[Range<usize>]) -> Self {
-        let at = |node: usize| rows.nodes().partition_point(|&stored| (stored as usize) < node);
+        let at = |node: usize| rows.nodes.partition_point(|&stored| (stored as usize) < node);
         let inside: Vec<Range<usize>> = inside.iter().map(|nodes| at(nodes.start)..at(nodes.end)).collect();
         let starts = std::iter::once(0).chain(inside.iter().map(|range| range.end));
-        let ends = inside.iter().map(|range| range.start).chain([rows.nodes().len()]);
+        let ends = inside.iter().map(|range| range.start).chain([rows.nodes.len()]);
         let mut sides = [Vec::new(), Vec::new()];
         for k in starts.zip(ends).flat_map(|(start, end)| start..end) {
             let of_kind: &mut Vec<Range<usize>> = &mut sides[usize::from(rows.needs_far(k))];

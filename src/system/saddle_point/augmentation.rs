@@ -9,7 +9,7 @@ pub struct Augmentation {
     /// `D` over the active multipliers of each group, if there are any.
     blocks: Vec<Option<DiagonalBlock>>,
     /// Multipliers of each group.
-    members: Vec<Range<usize>>,
+    pub members: Vec<Range<usize>>,
     /// Group of each multiplier.
     group: Vec<usize>,
 }
@@ -27,11 +27,6 @@ impl Augmentation {
             members.extend((0..groups).map(of_group));
         }
         Self { blocks: vec![None; members.len()], members, group }
-    }
-
-    /// Multipliers of each group.
-    pub fn members(&self) -> &[Range<usize>] {
-        &self.members
     }
 
     /// Group of a multiplier.
@@ -100,7 +95,7 @@ mod tests {
             let mut active = vec![true; contacts[0].multipliers.count()];
             let mut augmentation = Augmentation::new(&contacts);
             let all = augmentation.groups_of(0..active.len());
-            assert_eq!(augmentation.change(&all, &contacts, &active).len(), augmentation.members().len());
+            assert_eq!(augmentation.change(&all, &contacts, &active).len(), augmentation.members.len());
             let changed = [7, 20_000, 20_001, 40_000];
             changed.iter().for_each(|&i| active[i] = false);
             let groups = augmentation.groups_of(changed);

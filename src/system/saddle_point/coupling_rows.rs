@@ -194,7 +194,7 @@ mod tests {
             for rank in 0..RANKS {
                 let problem = problem(space, rank);
                 let groups = Augmentation::new(&problem.contacts);
-                let own = CouplingRows::of_levels(&problem, groups.members(), rank);
+                let own = CouplingRows::of_levels(&problem, &groups.members, rank);
                 for (l, ((own, all), space)) in own.iter().zip(&everything).zip(&problem.spaces).enumerate() {
                     let is_finest = l + 1 == problem.spaces.len();
                     for i in 0..problem.multiplier_count() {
@@ -203,11 +203,11 @@ mod tests {
                         let needed = is_own || all.iter().any(|(n, _)| space.own.contains(n));
                         assert!(here == all || own.row(i).is_empty() && !needed, "rank {rank}, row {i}");
                     }
-                    for group in groups.members() {
+                    for group in &groups.members {
                         let nodes = |i: usize| own.row(i).iter().map(|(node, _)| *node).collect::<Vec<_>>();
                         assert!(group.clone().all(|i| nodes(i) == nodes(group.start)), "{group:?}");
                     }
-                    assert!(own.neighbours(groups.members(), &space.own).keys().all(|node| space.own.contains(node)));
+                    assert!(own.neighbours(&groups.members, &space.own).keys().all(|node| space.own.contains(node)));
                 }
                 let finest = &own[own.len() - 1];
                 kept += (0..problem.multiplier_count()).filter(|&i| !finest.row(i).is_empty()).count();

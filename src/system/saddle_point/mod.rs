@@ -98,7 +98,7 @@ impl SaddlePoint {
         let (gap, load) = (moved_gap(problem, session), KeptLoad::new(load));
         let places = if form == Form::Augmented {
             let levels = rows.iter().zip(&problem.spaces).zip(&stiffness);
-            levels.map(|((rows, space), matrix)| ContactPlaces::new(rows, augmentation.members(), &space.own, matrix)).collect()
+            levels.map(|((rows, space), matrix)| ContactPlaces::new(rows, &augmentation.members, &space.own, matrix)).collect()
         } else {
             Vec::new()
         };
@@ -173,7 +173,8 @@ impl SaddlePoint {
     /// Brings the blocks with a multiplier side to the present set. **Collective**
     fn fill(&mut self, problem: &Discretisation, changed: &[usize]) -> Result<(), SystemError> {
         self.multipliers.set(problem, &self.rows[self.rows.len() - 1], &self.active, &self.augmentation, changed)?;
-        Ok(self.nest.refresh()?)
+        // So preconditioners are built again.
+        Ok(self.nest.assemble()?)
     }
 
     /// The system with all rows of the stiffness stored, as factorisations of `K + Bᵀ D B` want it; `None` if they are.
@@ -319,8 +320,8 @@ impl SaddlePoint {
 /// Rows of `B` that a rank needs, and the nodes that contact couples to its own, on every level.
 fn rows_and_neighbours(problem: &Discretisation, form: Form, rank: usize) -> (Vec<CouplingRows>, Vec<ContactNeighbours>) {
     let augmentation = Augmentation::new(&problem.contacts);
-    let rows = CouplingRows::of_levels(problem, augmentation.members(), rank);
-    let groups = if form == Form::Augmented { augmentation.members() } else { &[] };
+    let rows = CouplingRows::of_levels(problem, &augmentation.members, rank);
+    let groups = if form == Form::Augmented { augmentation.members.as_slice() } else { &[] };
     let neighbours = rows.iter().zip(&problem.spaces).map(|(rows, space)| rows.neighbours(groups, &space.own)).collect();
     (rows, neighbours)
 }

@@ -169,7 +169,7 @@ impl MultiplierBlocks {
     /// jump term couples to them.
     fn touched(&self, augmentation: &Augmentation, changed: &[usize]) -> Vec<usize> {
         let groups = augmentation.groups_of(changed.iter().copied());
-        let members = groups.into_iter().flat_map(|group| augmentation.members()[group].clone());
+        let members = groups.into_iter().flat_map(|group| augmentation.members[group].clone());
         let mut touched: Vec<usize> = members.flat_map(|i| self.jumps[i].keys().copied().chain([i])).collect();
         touched.sort_unstable();
         touched.dedup();
@@ -192,7 +192,7 @@ impl MultiplierBlocks {
         let ([corner, schur], group) = (&mut self.row_of, augmentation.group_of(i));
         corner.begin(self.number[i], diagonal);
         schur.begin(self.number[i], diagonal);
-        augmentation.members()[group].clone().for_each(|j| schur.add(self.number[j], 0.0));
+        augmentation.members[group].clone().for_each(|j| schur.add(self.number[j], 0.0));
         if let Some(inverse) = augmentation.of(group).filter(|_| active[i]).map(DiagonalBlock::inverse) {
             let of_row = inverse.values[i - inverse.rows.start];
             inverse.rows.zip(of_row).for_each(|(j, value)| schur.add(self.number[j], scaled(j, value)));
