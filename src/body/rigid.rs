@@ -1,7 +1,7 @@
 //! Nodes that move together as a rigid body: those of a rigid tool, or of a boundary under a stiff plate.
 
 use crate::geometry::Point;
-use crate::mesh::{EdgeNode, MacroMesh, Numbering};
+use crate::mesh::{EdgeNode, MacroMesh, Numbering, each_once};
 use std::collections::BTreeMap;
 
 /// A rigid motion of small angle: shift along x and y (length), and turn about the reference point (radians).
@@ -70,16 +70,13 @@ impl RigidSet {
 
     /// Macro edges on which its nodes lie, each once.
     pub fn edges(&self, mesh: &MacroMesh) -> Vec<u32> {
-        let mut edges: Vec<u32> = match &self.nodes {
+        match &self.nodes {
             RigidNodes::Body(name) => {
                 let own = mesh.triangles.iter().filter(|triangle| mesh.bodies[triangle.body as usize] == *name);
-                own.flat_map(|triangle| triangle.edges).collect()
+                each_once(own.flat_map(|triangle| triangle.edges))
             }
-            RigidNodes::Boundaries(names) => mesh.edges_on(names).collect(),
-        };
-        edges.sort_unstable();
-        edges.dedup();
-        edges
+            RigidNodes::Boundaries(names) => each_once(mesh.edges_on(names)),
+        }
     }
 
     /// Numbers and places of its nodes on a level, the same on every rank.

@@ -5,7 +5,7 @@
 
 use crate::element::{Block, edge_shape};
 use crate::geometry::{Formula, Point, gauss_points};
-use crate::mesh::{BoundaryEdge, MacroMesh, Numbering};
+use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, each_once};
 
 /// Gauss points on an element edge: exact for P2 and a stiffness of degree 3.
 const POINTS: usize = 4;
@@ -47,10 +47,7 @@ impl SpringStiffness {
 impl Springs {
     /// The macro edges that they stand on, each once.
     pub fn edges(&self, mesh: &MacroMesh) -> Vec<u32> {
-        let mut edges: Vec<u32> = mesh.edges_on(&self.on).collect();
-        edges.sort_unstable();
-        edges.dedup();
-        edges
+        each_once(mesh.edges_on(&self.on))
     }
 
     /// Hands the stiffness of each pair of nodes on a macro edge, `∫ N_a N_b k ds` in global axes, to `add(a, b, block)`. Place,

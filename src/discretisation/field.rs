@@ -3,7 +3,7 @@
 use crate::discretisation::error::SystemError;
 use crate::discretisation::scene::Scene;
 use crate::discretisation::space::Space;
-use crate::mesh::lattice;
+use crate::mesh::{each_once, lattice};
 use crate::petsc::{Gather, Index, Session, Vector};
 use std::collections::HashMap;
 
@@ -98,17 +98,9 @@ fn indices<const K: usize>(node: usize) -> [Index; K] {
 /// Nodes of this rank's macro triangles that other ranks own.
 fn seen_nodes(scene: &Scene, space: &Space, rank: usize) -> Vec<usize> {
     let n = space.numbering.level.intervals;
-    let mut seen: Vec<usize> = scene
-        .partition
-        .with_nodes_of_others(rank)
-        .iter()
-        .flat_map(|&triangle| {
-            let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
-            (0..3).flat_map(move |side| (0..n).map(move |p| lattice::side_node(n, side, p))).map(move |(i, j)| numbers.node(i, j))
-        })
-        .filter(|node| !space.own.contains(node))
-        .collect();
-    seen.sort_unstable();
-    seen.dedup();
-    seen
+    let seen = scene.partition.with_nodes_of_others(rank).iter().flat_map(|&triangle| {
+        let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
+        (0..3).flat_map(move |side| (0..n).map(move |p| lattice::side_node(n, side, p))).map(move |(i, j)| numbers.node(i, j))
+    });
+    each_once(seen.filter(|node| !space.own.contains(node)))
 }

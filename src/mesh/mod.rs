@@ -53,6 +53,7 @@
 
 mod chain;
 mod curved;
+mod each_once;
 mod edge_shape;
 mod edges;
 mod faults;
@@ -74,6 +75,7 @@ mod tools;
 
 pub use chain::Stretch;
 pub use curved::{BoundaryVertex, Corner, SmoothNormals, SmoothPoint};
+pub use each_once::each_once;
 pub use edge_shape::EdgeShape;
 pub use faults::Slit;
 pub use file::{parse_gmsh, parse_joined, read_bytes, read_gmsh, read_regular, surfaces, touching_surfaces};

@@ -6,7 +6,7 @@
 use crate::body::{Constraints, RigidNodes, RigidSet};
 use crate::discretisation::{Scene, SystemError};
 use crate::geometry::Point;
-use crate::mesh::{Numbering, lattice};
+use crate::mesh::{Numbering, each_once, lattice};
 
 /// What moves a node.
 #[derive(Clone, Copy)]
@@ -83,9 +83,7 @@ impl Freedoms {
         let mut joined: Vec<usize> = (0..mesh.pieces.len()).collect();
         let mut sets = Vec::new();
         for set in &scene.rigid {
-            let mut pieces: Vec<usize> = set.edges(mesh).into_iter().map(|edge| mesh.piece_beside(edge)).collect();
-            pieces.sort_unstable();
-            pieces.dedup();
+            let pieces = each_once(set.edges(mesh).into_iter().map(|edge| mesh.piece_beside(edge)));
             let roots: Vec<usize> = pieces.iter().map(|&piece| root(&mut joined, piece)).collect();
             roots.windows(2).for_each(|two| joined[two[1]] = two[0]);
             let block = roots[0];
@@ -93,9 +91,7 @@ impl Freedoms {
             sets.push(SetFreedom { block, unknowns: [None; 3], pieces: if is_tool { Vec::new() } else { pieces } });
         }
         let roots: Vec<usize> = (0..joined.len()).map(|piece| root(&mut joined, piece)).collect();
-        let mut blocks: Vec<usize> = roots.clone();
-        blocks.sort_unstable();
-        blocks.dedup();
+        let blocks = each_once(roots.iter().copied());
         let number = |root: usize| blocks.binary_search(&root).unwrap_or_default();
         let block_of_piece: Vec<usize> = roots.iter().map(|&root| number(root)).collect();
         let mut sizes = vec![0; blocks.len()];

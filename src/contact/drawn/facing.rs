@@ -5,7 +5,7 @@ use crate::contact::pair::Pair;
 use crate::contact::placing::{all_edges, faces};
 use crate::contact::side::Side;
 use crate::geometry::Point;
-use crate::mesh::{BoundaryEdge, EdgeNode, MacroMesh, Numbering, SmoothNormals};
+use crate::mesh::{BoundaryEdge, EdgeNode, MacroMesh, Numbering, SmoothNormals, each_once};
 
 /// Places along Γ_C that are looked at, at most.
 pub const PLACES: usize = 64;
@@ -114,9 +114,7 @@ impl<'a> Facing<'a> {
 /// How far chords of one boundary lie from their arcs at most (length): declared ones from the small edges, others from those of the
 /// mesh file.
 pub fn largest_sagitta(mesh: &MacroMesh, seen: &[Seen]) -> f64 {
-    let mut edges: Vec<u32> = seen.iter().map(|seen| seen.edge.nodes[0].edge).collect();
-    edges.sort_unstable();
-    edges.dedup();
+    let edges = each_once(seen.iter().map(|seen| seen.edge.nodes[0].edge));
     let normals = SmoothNormals::new(mesh, &edges);
     let small = |edge: u32| seen.iter().filter(|seen| seen.edge.nodes[0].edge == edge).count().max(1) as f64;
     let sagitta = |&edge: &u32| {

@@ -111,7 +111,7 @@ mod tests {
     use crate::contact::side::Side;
     use crate::element::Order;
     use crate::mesh::samples::two_blocks;
-    use crate::mesh::{Level, Numbering, Partition};
+    use crate::mesh::{Level, Numbering, Partition, each_once};
     use std::rc::Rc;
 
     /// The upper of two blocks, lifted: its flat seam is shifted onto that of the lower one, from end to end.
@@ -121,10 +121,7 @@ mod tests {
             let mut mesh = two_blocks();
             let upper = mesh.bodies.iter().position(|name| name == "upper").expect("named") as u32;
             let of_upper = mesh.triangles.iter().filter(|triangle| triangle.body == upper).flat_map(|triangle| triangle.vertices);
-            let mut vertices: Vec<u32> = of_upper.collect();
-            vertices.sort_unstable();
-            vertices.dedup();
-            vertices.into_iter().for_each(|vertex| mesh.vertices[vertex as usize].y += lift);
+            each_once(of_upper).into_iter().for_each(|vertex| mesh.vertices[vertex as usize].y += lift);
             let numbering = Numbering::new(Level { intervals: 4, order: Order::P1 }, &Rc::new(Partition::new(&mesh, &[0; 6], 1)));
             let pair = Pair { curve: CurveChoice::Own(Side::Second), ..seam() };
             let sides = SmoothSide::of_pair(&mesh, &numbering, &pair, &|_| Point::zeros());

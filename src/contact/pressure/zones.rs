@@ -2,6 +2,7 @@
 
 use crate::contact::contact_boundary::ContactBoundary;
 use crate::contact::multiplier::Multipliers;
+use crate::mesh::each_once;
 use std::ops::Range;
 
 /// Share of the length of a zone that counts as its middle: at its ends λ falls like a root, or is singular.
@@ -123,9 +124,7 @@ impl Zone {
 
     /// `∫λ ds` (force per thickness).
     pub fn force(&self, multipliers: &Multipliers, lambda: &[f64]) -> f64 {
-        let mut rows: Vec<usize> = self.segments.clone().flat_map(|k| multipliers.on_segment(k, 0.0).0).collect();
-        rows.sort_unstable();
-        rows.dedup();
+        let rows = each_once(self.segments.clone().flat_map(|k| multipliers.on_segment(k, 0.0).0));
         rows.into_iter().map(|i| lambda[i] * multipliers.integral(i)).sum()
     }
 

@@ -14,7 +14,7 @@ use crate::discretisation::motions::free_motion::FreeMotion;
 use crate::discretisation::scene::Scene;
 use crate::element::{Order, Plane};
 use crate::geometry::Point;
-use crate::mesh::{Level, MacroMesh, Numbering, SmoothNormals};
+use crate::mesh::{Level, MacroMesh, Numbering, SmoothNormals, each_once};
 use crate::petsc::Session;
 use std::collections::{HashMap, HashSet};
 
@@ -166,9 +166,7 @@ impl<'a> Restraints<'a> {
     ) -> Vec<Condition> {
         let mesh = &self.scene.mesh;
         let of_side = || row.iter().filter(|coupled| coupled.side == side);
-        let mut pieces: Vec<usize> = of_side().map(|coupled| mesh.piece_beside(coupled.node.edge)).collect();
-        pieces.sort_unstable();
-        pieces.dedup();
+        let pieces = each_once(of_side().map(|coupled| mesh.piece_beside(coupled.node.edge)));
         let of_piece = |piece: usize| {
             let (mut terms, mut doubt) = (Vec::new(), 0.0_f64);
             for coupled in of_side().filter(|coupled| mesh.piece_beside(coupled.node.edge) == piece) {

@@ -7,6 +7,7 @@ use super::known_step::{KnownStep, NONE};
 use super::level::Coarsening;
 use super::lists::Lists;
 use crate::element::Block;
+use crate::mesh::each_once;
 use crate::multigrid::stiffness::{LatticeOperator, Part, StoredRows};
 use crate::petsc::{Result, Session};
 use std::ops::Range;
@@ -68,10 +69,7 @@ impl GalerkinProduct {
         let arriving: Vec<(usize, u32)> =
             pairs.as_chunks().0.iter().map(|&[row, column]| (row as usize - own.start, column)).collect();
         arriving.iter().for_each(|&(row, column)| pattern[row].push(column));
-        for columns in &mut pattern {
-            columns.sort_unstable();
-            columns.dedup();
-        }
+        let pattern: Vec<Vec<u32>> = pattern.into_iter().map(each_once).collect();
         let (product, far) = zeros(&pattern, &own);
         let place =
             |(at, &(row, column)): (usize, &(usize, u32))| (row, (place_in_row(&product, row, column, &own, &far), at as u32));
@@ -169,9 +167,7 @@ fn place_in_row(rows: &StoredRows, row: usize, column: u32, own: &Range<usize>, 
 /// Rows of zeros with these columns, and those columns of other ranks, ascending.
 fn zeros(pattern: &[Vec<u32>], own: &Range<usize>) -> (StoredRows, Vec<usize>) {
     let is_near = |column: &u32| own.contains(&(*column as usize));
-    let mut far: Vec<u32> = pattern.iter().flatten().copied().filter(|column| !is_near(column)).collect();
-    far.sort_unstable();
-    far.dedup();
+    let far = each_once(pattern.iter().flatten().copied().filter(|column| !is_near(column)));
     let near = Part::zeros(pattern.iter().map(|columns| columns.iter().filter(|c| is_near(c)).map(|&c| c - own.start as u32)));
     let place = |column: &u32| far.binary_search(column).expect("it is among them") as u32;
     let others = Part::zeros(pattern.iter().map(|columns| columns.iter().filter(|c| !is_near(c)).map(place)));

@@ -7,7 +7,7 @@ use super::whole;
 use crate::discretisation::{Scene, Space};
 use crate::element::Block;
 use crate::geometry::Point;
-use crate::mesh::lattice;
+use crate::mesh::{each_once, lattice};
 use crate::multigrid::triangle_lattice::{Lane, LatticeRoom, TriangleNodes, side_nodes};
 use crate::petsc::{Halo, Session};
 use std::ops::Range;
@@ -105,9 +105,7 @@ impl NodeInterpolation {
             side_nodes(n / 2).map(move |(i, j)| numbers.node(i, j))
         });
         let parents = rows.iter().flat_map(|(_, pair)| pair).chain(sides);
-        let mut far: Vec<usize> = parents.filter(|node| !coarse.own.contains(node)).collect();
-        far.sort_unstable();
-        far.dedup();
+        let far = each_once(parents.filter(|node| !coarse.own.contains(node)));
         let (even, weighted, turned) = lists(&rows, fine, coarse, &far);
         // All ranks take the same way here, whatever they own: a halo is made by all of them together.
         let halo = (session.size() > 1).then(|| Halo::new(session, &coarse.own, &far));
@@ -138,9 +136,7 @@ impl NodeInterpolation {
         session: &Session,
     ) -> Self {
         let parents = couplings.clone().map(|coupling| coupling.parent);
-        let mut far: Vec<usize> = parents.filter(|parent| !coarse.contains(parent)).collect();
-        far.sort_unstable();
-        far.dedup();
+        let far = each_once(parents.filter(|parent| !coarse.contains(parent)));
         let (mut weighted, mut turned, mut has_parent) = (Vec::new(), Vec::new(), vec![false; fine.len()]);
         for coupling in couplings {
             has_parent[coupling.node - fine.start] = true;

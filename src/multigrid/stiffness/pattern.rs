@@ -2,6 +2,7 @@
 
 use super::ContactNeighbours;
 use super::stored_rows::{Part, StoredRows};
+use crate::mesh::each_once;
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -64,8 +65,7 @@ impl RowColumns {
                 self.columns[self.starts[k]..at].iter().map(|&column| column as usize).filter(|column| !own.contains(column)),
             );
         }
-        far.sort_unstable();
-        far.dedup();
+        let far = each_once(far);
         let near = self.part(|column| own.contains(&column).then(|| (column - own.start) as u32));
         let others = self.part(|column| match own.contains(&column) {
             true => None,
@@ -99,10 +99,8 @@ impl StoredRows {
     /// contact does not touch have the blocks of these.
     pub fn with_places(&self, contact: &ContactNeighbours, own: &Range<usize>, far: &[usize]) -> (Self, Vec<usize>) {
         let rows = || contact.range(own.clone());
-        let mut all: Vec<usize> = far.to_vec();
-        all.extend(rows().flat_map(|(_, columns)| columns).filter(|column| !own.contains(column)));
-        all.sort_unstable();
-        all.dedup();
+        let wanted = rows().flat_map(|(_, columns)| columns).filter(|column| !own.contains(column));
+        let all = each_once(far.iter().chain(wanted).copied());
         let moved: Vec<u32> = far.iter().map(|node| all.binary_search(node).expect("it is among all") as u32).collect();
         let of = |is_near: bool| {
             let wanted = rows().map(|(row, columns)| {

@@ -51,8 +51,8 @@ pub(crate) fn distance(mesh: &MacroMesh, x: Point, edge: u32) -> f64 {
 mod tests {
     use super::*;
     use crate::contact::samples::seam;
-    use crate::mesh::BisectedMesh;
     use crate::mesh::samples::two_blocks;
+    use crate::mesh::{BisectedMesh, each_once};
 
     /// The blocks, the upper one refined at (1, 1.1) until its edges on the line there are so long at most.
     fn refined_above(longest: f64) -> (MacroMesh, u32) {
@@ -84,10 +84,7 @@ mod tests {
     #[test]
     fn what_is_farther_than_it_is_long_does_not_face() {
         let (mut mesh, marked) = refined_above(0.3);
-        let lower: Vec<u32> = mesh.triangles.iter().filter(|t| t.body == 0).flat_map(|t| t.vertices).collect();
-        let mut moved: Vec<u32> = lower;
-        moved.sort_unstable();
-        moved.dedup();
+        let moved = each_once(mesh.triangles.iter().filter(|t| t.body == 0).flat_map(|t| t.vertices));
         moved.iter().for_each(|&vertex| mesh.vertices[vertex as usize].y -= 2.5);
         assert!(across(&mesh, &[seam()], &[marked]).is_empty());
     }

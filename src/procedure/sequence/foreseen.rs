@@ -4,7 +4,7 @@
 //! before anything is solved on them: what lies in their cells, less by what the last refinement has brought there.
 
 use crate::contact::Pair;
-use crate::mesh::{BisectedMesh, Cells, MacroMesh, Origin};
+use crate::mesh::{BisectedMesh, Cells, MacroMesh, Origin, each_once};
 use crate::procedure::sequence::across::across;
 use crate::procedure::sequence::marking::marked;
 
@@ -190,8 +190,7 @@ fn refined(mesh: &BisectedMesh, pairs: &[Pair], open: &[&Indicators], share: f64
     let too_small = too_small(&mesh.mesh);
     let mut chosen: Vec<u32> = open.iter().flat_map(|goal| goal.marked(share, &too_small)).collect();
     chosen.extend(across(&mesh.mesh, pairs, &chosen));
-    chosen.sort_unstable();
-    chosen.dedup();
+    chosen = each_once(chosen);
     if chosen.is_empty() {
         chosen = (0..mesh.mesh.triangles.len() as u32).collect();
     }

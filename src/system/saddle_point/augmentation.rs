@@ -2,6 +2,7 @@
 
 use crate::contact::DiagonalBlock;
 use crate::discretisation::Contact;
+use crate::mesh::each_once;
 use std::ops::Range;
 
 /// `D` of all contacts, numbered through: block diagonal, a block for each group of multipliers that the mass matrix couples.
@@ -36,10 +37,7 @@ impl Augmentation {
 
     /// Groups of some multipliers, ascending.
     pub fn groups_of(&self, multipliers: impl IntoIterator<Item = usize>) -> Vec<usize> {
-        let mut groups: Vec<usize> = multipliers.into_iter().map(|i| self.group[i]).collect();
-        groups.sort_unstable();
-        groups.dedup();
-        groups
+        each_once(multipliers.into_iter().map(|i| self.group[i]))
     }
 
     /// Takes these groups over as they are in another active set. Gives what that adds to `D`, each with its group: the old blocks

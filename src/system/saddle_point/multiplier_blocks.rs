@@ -6,6 +6,7 @@ use super::transposed::TransposedCoupling;
 use crate::contact::{DiagonalBlock, MultiplierSpace, SparseRows, jump_matrix};
 use crate::discretisation::{Contact, Discretisation, Form, Space, SystemError};
 use crate::geometry::Point;
+use crate::mesh::each_once;
 use crate::petsc::{Index, Matrix, Session};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -170,10 +171,7 @@ impl MultiplierBlocks {
     fn touched(&self, augmentation: &Augmentation, changed: &[usize]) -> Vec<usize> {
         let groups = augmentation.groups_of(changed.iter().copied());
         let members = groups.into_iter().flat_map(|group| augmentation.members[group].clone());
-        let mut touched: Vec<usize> = members.flat_map(|i| self.jumps[i].keys().copied().chain([i])).collect();
-        touched.sort_unstable();
-        touched.dedup();
-        touched
+        each_once(members.flat_map(|i| self.jumps[i].keys().copied().chain([i])))
     }
 
     /// Row `i` of `-C` and of `S`, whole: what is no longer there is zero.
