@@ -5,9 +5,10 @@ use std::path::Path;
 
 use toml::Table;
 
+use super::acting::load::{Loads, read_load};
 use super::acting::mean::check_means;
 use super::acting::rigid::read_tool;
-use super::acting::{load, support};
+use super::acting::support::{Supports, read_support};
 use super::asked::solver::read_solver;
 use super::asked::{accuracy, exact, output, steps};
 use super::bodies::gravity::{check_gravity, read_gravity};
@@ -136,8 +137,10 @@ impl Case {
         let bodies = root.named("body", |section| body::read_body(section, plane, gravity));
         let tools = root.named("rigid", read_tool);
         let geometries = root.named("geometry", geometry::read_geometry);
-        let (supports, springs, means) = support::split(root.named("support", |section| support::read_support(section, root)));
-        let (loads, point_loads, plates) = load::split_loads(root.named("load", |section| load::read_load(section, root)));
+        let (mut supports, mut loads) = (Supports::default(), Loads::default());
+        root.named("support", |section| read_support(section, root, &mut supports));
+        root.named("load", |section| read_load(section, root, &mut loads));
+        let (Supports { supports, springs, means }, Loads { loads, point_loads, plates }) = (supports, loads);
         let mut unions = Vec::new();
         let contacts = root.named("contact", |section| read_contact(section, root, &mut unions));
         let (solver, output) = (read_solver(root), output::read_output(root, plane));

@@ -44,40 +44,29 @@ const RULES: &[TableRule] = &[
     TableRule::Beside("about", &["rigid"]),
 ];
 
-/// What a table `[load.NAME]` says.
-pub enum LoadTable {
-    /// It acts on physical curves.
-    OnCurves(Load),
-    /// It acts at a point.
-    AtPoint(PointLoad),
-    /// A resultant on a boundary that stays rigid.
-    OnPlate(Plate),
+/// What all tables `[load.NAME]` say.
+#[derive(Default)]
+pub struct Loads {
+    /// What acts on physical curves.
+    pub loads: Vec<Load>,
+    /// What acts at points.
+    pub point_loads: Vec<PointLoad>,
+    /// Resultants on boundaries that stay rigid.
+    pub plates: Vec<Plate>,
 }
 
-/// The loads on curves, those at points, and those on boundaries that stay rigid.
-pub fn split_loads(all: Vec<LoadTable>) -> (Vec<Load>, Vec<PointLoad>, Vec<Plate>) {
-    let (mut loads, mut point_loads, mut plates) = (Vec::new(), Vec::new(), Vec::new());
-    for load in all {
-        match load {
-            LoadTable::OnCurves(load) => loads.push(load),
-            LoadTable::AtPoint(load) => point_loads.push(load),
-            LoadTable::OnPlate(plate) => plates.push(plate),
-        }
-    }
-    (loads, point_loads, plates)
-}
-
-/// `[load.NAME]`; its curves alone are enough to look for names.
-pub fn read_load(section: &Section, root: &Section) -> Option<LoadTable> {
+/// `[load.NAME]`, put with those of its kind; its curves alone are enough to look for names. Nothing if it has not even these.
+pub fn read_load(section: &Section, root: &Section, all: &mut Loads) -> Option<()> {
     let place = read_where(section, root, ON, AT, BODY);
     let name = section.name().to_string();
     if section.has("at") {
         section.refuse(&["pressure", "traction"], "acts on physical curves; at a point give force = [fx, fy]");
         let force = section.required(FORCE);
-        return Some(LoadTable::AtPoint(PointLoad { name, at: place?.at?, force: force? }));
+        all.point_loads.push(PointLoad { name, at: place?.at?, force: force? });
+        return Some(());
     }
     if section.or(RIGID)? {
-        return read_plate(section, place?.on).map(LoadTable::OnPlate);
+        return read_plate(section, place?.on).map(|plate| all.plates.push(plate));
     }
     section.refuse(
         &["force", "moment"],
@@ -92,5 +81,6 @@ pub fn read_load(section: &Section, root: &Section) -> Option<LoadTable> {
         _ => {}
     }
     let kind = pressure.or(traction).unwrap_or(LoadKind::Pressure(Formula::constant(0.0)));
-    Some(LoadTable::OnCurves(Load { name, on: place?.on, kind }))
+    all.loads.push(Load { name, on: place?.on, kind });
+    Some(())
 }

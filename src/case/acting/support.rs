@@ -51,36 +51,24 @@ const RULES: &[TableRule] = &[
     TableRule::Alone("stiffness", &["ux", "uy", "normal", "body", "angle"]),
 ];
 
-/// What a table `[support.NAME]` says.
-pub enum SupportTable {
-    /// Displacements are prescribed.
-    Fixed(Support),
-    /// Springs stand there.
-    Elastic(Springs),
-    /// The mean motion of a body is held.
-    Mean(MeanSupport),
+/// What all tables `[support.NAME]` say.
+#[derive(Default)]
+pub struct Supports {
+    /// Where displacements are prescribed.
+    pub supports: Vec<Support>,
+    /// Where springs stand.
+    pub springs: Vec<Springs>,
+    /// Where the mean motion of a body is held.
+    pub means: Vec<MeanSupport>,
 }
 
-/// The supports that prescribe displacements, the elastic ones, and those that hold mean motions.
-pub fn split(all: Vec<SupportTable>) -> (Vec<Support>, Vec<Springs>, Vec<MeanSupport>) {
-    let (mut supports, mut springs, mut means) = (Vec::new(), Vec::new(), Vec::new());
-    for support in all {
-        match support {
-            SupportTable::Fixed(support) => supports.push(support),
-            SupportTable::Elastic(support) => springs.push(support),
-            SupportTable::Mean(support) => means.push(support),
-        }
-    }
-    (supports, springs, means)
-}
-
-/// `[support.NAME]`
-pub fn read_support(section: &Section, root: &Section) -> Option<SupportTable> {
+/// `[support.NAME]`, put with those of its kind; nothing if it is bad.
+pub fn read_support(section: &Section, root: &Section, all: &mut Supports) -> Option<()> {
     if section.has("mean") {
-        return read_mean(section, BODY).map(SupportTable::Mean);
+        return read_mean(section, BODY).map(|support| all.means.push(support));
     }
     if section.has("stiffness") {
-        return read_springs(section, ON).map(SupportTable::Elastic);
+        return read_springs(section, ON).map(|support| all.springs.push(support));
     }
     let place = read_where(section, root, ON, AT, BODY);
     let given = ["ux", "uy", "normal"].map(|key| section.has(key));
@@ -98,5 +86,6 @@ pub fn read_support(section: &Section, root: &Section) -> Option<SupportTable> {
         _ => {}
     }
     let Where { on, at } = place?;
-    Some(SupportTable::Fixed(Support { name: section.name().into(), on, at, ux, uy, normal }))
+    all.supports.push(Support { name: section.name().into(), on, at, ux, uy, normal });
+    Some(())
 }
