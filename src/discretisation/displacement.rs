@@ -4,7 +4,6 @@ use crate::discretisation::error::SystemError;
 use crate::discretisation::field::Field;
 use crate::discretisation::levels::Discretisation;
 use crate::geometry::Point;
-use crate::mesh::lattice::Triangle;
 use crate::petsc::{Session, Vector};
 
 impl Field<2> {
@@ -27,11 +26,5 @@ impl Field<2> {
     pub fn point(&self, node: usize) -> Point {
         let [x, y] = self.at(node);
         Point::new(x, y)
-    }
-
-    /// Displacements at the nodes of one triangle of a macro triangle's lattice.
-    pub fn of_triangle<const N: usize>(&self, problem: &Discretisation, triangle: usize, small: &Triangle) -> [Point; N] {
-        let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
-        small.nodes::<N>().map(|(i, j)| self.point(numbers.node(i, j)))
     }
 }

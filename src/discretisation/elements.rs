@@ -1,6 +1,6 @@
 //! The elements of a macro triangle on the finest level: the small triangles of its lattice.
 
-use crate::body::{NodePositions, positions_of_one};
+use crate::body::{NodePositions, positions, positions_of_one};
 use crate::discretisation::field::Field;
 use crate::discretisation::levels::Discretisation;
 use crate::geometry::Point;
@@ -38,6 +38,13 @@ impl Discretisation {
             let at = small.nodes::<N>();
             show(&Element { small, nodes: at.map(|(i, j)| numbers.node(i, j)), x: all.of(&at) })
         })
+    }
+
+    /// One element of a macro triangle.
+    pub fn element<const N: usize>(&self, triangle: usize, small: Triangle) -> Element<N> {
+        let (mesh, numbering, at) = (&self.scene.mesh, &self.finest().numbering, small.nodes::<N>());
+        let numbers = numbering.triangle(mesh, triangle);
+        Element { small, nodes: at.map(|(i, j)| numbers.node(i, j)), x: positions(mesh, triangle, numbering.level, &at) }
     }
 }
 

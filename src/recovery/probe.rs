@@ -1,7 +1,6 @@
 //! Displacement and stress at a point of a body.
 
-use crate::body::positions;
-use crate::discretisation::{Discretisation, Field, SystemError, agreed};
+use crate::discretisation::{Discretisation, Element, Field, SystemError, agreed};
 use crate::element::{Heat, PlaneLaw, SIX_POINTS, by_order, heated_stress, shape, stress};
 use crate::geometry::Point;
 use crate::mesh::Region;
@@ -71,9 +70,8 @@ pub fn shapes_at(problem: &Discretisation, triangle: usize, at: Point) -> Vec<(u
 }
 
 fn nodes_with_shapes<const N: usize>(problem: &Discretisation, triangle: usize, at: Point) -> Vec<(usize, f64)> {
-    let (small, l) = small_triangle(problem, triangle, at);
-    let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
-    small.nodes::<N>().into_iter().map(|(i, j)| numbers.node(i, j)).zip(shape::<N>(l)).collect()
+    let (element, l) = element_at::<N>(problem, triangle, at);
+    element.nodes.into_iter().zip(shape(l)).collect()
 }
 
 /// Root mean square of the size of the stress over the triangles of the lattice that hold a point; zero if no body holds it.
@@ -107,11 +105,10 @@ fn add_squares<const N: usize>(
     law: &PlaneLaw,
     sums: &mut [f64; 2],
 ) -> Result<(), SystemError> {
-    let small = small_triangle(problem, triangle, at).0;
-    let x = positions(&problem.scene.mesh, triangle, problem.finest().numbering.level, &small.nodes::<N>());
-    let nodal = u.of_triangle::<N>(problem, triangle, &small);
+    let (element, _) = element_at::<N>(problem, triangle, at);
+    let nodal = u.on(&element);
     for &(l, weight) in SIX_POINTS {
-        let s = stress(&x, &nodal, l, law)?;
+        let s = stress(&element.x, &nodal, l, law)?;
         sums[0] += weight * law.plane.stress_product(s, s);
         sums[1] += weight;
     }
@@ -162,14 +159,11 @@ fn add_stress_forces<const N: usize>(
     law: &PlaneLaw,
     forces: &mut Field<2>,
 ) -> Result<(), SystemError> {
-    let small = small_triangle(problem, triangle, at).0;
-    let level = problem.finest().numbering.level;
-    let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
-    let mean = |u: &[Point; N]| stress(&x, u, MIDDLE, law);
-    let pointing = mean(&u.of_triangle::<N>(problem, triangle, &small))?;
-    let numbers = problem.finest().numbering.triangle(&problem.scene.mesh, triangle);
-    for (k, (i, j)) in small.nodes::<N>().into_iter().enumerate() {
-        let sum = forces.at_mut(numbers.node(i, j));
+    let (element, _) = element_at::<N>(problem, triangle, at);
+    let mean = |u: &[Point; N]| stress(&element.x, u, MIDDLE, law);
+    let pointing = mean(&u.on(&element))?;
+    for (k, node) in element.nodes.into_iter().enumerate() {
+        let sum = forces.at_mut(node);
         for (c, axis) in [Point::x(), Point::y()].into_iter().enumerate() {
             let mut moved = [Point::zeros(); N];
             moved[k] = axis;
@@ -193,17 +187,15 @@ fn values_at<const N: usize>(
     at: Point,
     (law, heat): (&PlaneLaw, Option<&Heat>),
 ) -> Result<[f64; 6], SystemError> {
-    let (small, l) = small_triangle(problem, triangle, at);
-    let level = problem.finest().numbering.level;
-    let x = positions(&problem.scene.mesh, triangle, level, &small.nodes::<N>());
-    let nodal = u.of_triangle::<N>(problem, triangle, &small);
+    let (element, l) = element_at::<N>(problem, triangle, at);
+    let nodal = u.on(&element);
     let moved = nodal.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (u, value)| sum + value * u);
-    let s = heated_stress(&x, &nodal, l, law, heat)?;
+    let s = heated_stress(&element.x, &nodal, l, law, heat)?;
     Ok([moved.x, moved.y, s[0], s[1], s[2], s[3]])
 }
 
-/// The triangle of a macro triangle's lattice at reference coordinates, and the barycentric ones in it.
-fn small_triangle(problem: &Discretisation, triangle: usize, at: Point) -> (Triangle, [f64; 3]) {
+/// The element of a macro triangle at reference coordinates, and the barycentric ones in it.
+fn element_at<const N: usize>(problem: &Discretisation, triangle: usize, at: Point) -> (Element<N>, [f64; 3]) {
     let level = problem.finest().numbering.level;
     let count = level.triangles_per_edge();
     let scaled = problem.scene.mesh.lattice_point(triangle, level, at).map(|v| v.max(0.0)) * count as f64;
@@ -213,9 +205,10 @@ fn small_triangle(problem: &Discretisation, triangle: usize, at: Point) -> (Tria
         if i > j { i -= 1 } else { j -= 1 }
     }
     let (xi, eta) = (scaled.x - i as f64, scaled.y - j as f64);
-    if xi + eta > 1.0 && i + j + 2 <= count {
+    let (small, l) = if xi + eta > 1.0 && i + j + 2 <= count {
         (Triangle::at(step * (i + 1), step * (j + 1), level.order, true), [xi + eta - 1.0, 1.0 - xi, 1.0 - eta])
     } else {
         (Triangle::at(step * i, step * j, level.order, false), [1.0 - xi - eta, xi, eta])
-    }
+    };
+    (problem.element(triangle, small), l)
 }

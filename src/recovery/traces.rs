@@ -1,6 +1,5 @@
 //! Both bodies' traces along Γ_C.
 
-use crate::body::positions;
 use crate::contact::{Distance, EdgeOverlap, edge_overlaps, trace};
 use crate::discretisation::{Contact, ContactPressure, Discretisation, Field, SystemError, agreed};
 use crate::element::{Heat, PlaneLaw, by_order, heated_stress};
@@ -182,7 +181,6 @@ fn stress_beside<const N: usize>(
     u: &Field<2>,
     (law, heat): (&PlaneLaw, Option<&Heat>),
 ) -> Result<[f64; 4], SystemError> {
-    let x = positions(&problem.scene.mesh, small.triangle, problem.finest().numbering.level, &small.beside.nodes::<N>());
-    let nodal = u.of_triangle::<N>(problem, small.triangle, &small.beside);
-    Ok(heated_stress(&x, &nodal, small.barycentric(fraction), law, heat)?)
+    let element = problem.element::<N>(small.triangle, small.beside);
+    Ok(heated_stress(&element.x, &u.on(&element), small.barycentric(fraction), law, heat)?)
 }
