@@ -8,7 +8,6 @@ use super::overlaps::{missing_force, unresolved_force};
 use super::penetrations::penetrations;
 use super::probe::{Probed, Probing, probe};
 use super::stress::{NodalStress, nodal_stress};
-use super::stress_peaks::{StressPeak, all_singular_places, stress_peaks};
 use super::traces::{TracePoint, trace_points};
 use super::zone_ends::{EndSlip, slip_at_ends};
 use crate::contact::Penetration;
@@ -130,14 +129,5 @@ impl<'a> Evaluation<'a> {
                 Ok(self.stress.get_or_init(|| stress))
             }
         }
-    }
-
-    /// The largest von Mises stress of each part; of each contact it is known whether λ `grows` without bound. **Collective**
-    ///
-    /// # Errors
-    /// As [`Evaluation::new`].
-    pub fn stress_peaks(&self, grows: &[bool]) -> Result<Vec<StressPeak>, SystemError> {
-        let singular = all_singular_places(self.problem, self.solution, &self.balance, grows);
-        Ok(stress_peaks(self.problem, (&self.u, self.stress()?), &singular, self.session))
     }
 }

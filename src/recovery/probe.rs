@@ -71,7 +71,7 @@ pub fn shapes_at(problem: &Discretisation, triangle: usize, at: Point) -> Vec<(u
 
 fn nodes_with_shapes<const N: usize>(problem: &Discretisation, triangle: usize, at: Point) -> Vec<(usize, f64)> {
     let (element, l) = element_at::<N>(problem, triangle, at);
-    element.nodes.into_iter().zip(shape(l)).collect()
+    element.nodes.into_iter().zip(shape::<N>(l)).collect()
 }
 
 /// Root mean square of the size of the stress over the triangles of the lattice that hold a point; zero if no body holds it.

@@ -1,10 +1,10 @@
 //! The largest von Mises stress of each part of the bodies: how large it is, where, and whether the exact stress has a bound there.
 
-use super::balance::Balance;
-use super::stress::{NodalStress, nodal_stress};
+use super::evaluation::Evaluation;
+use super::stress::nodal_stress;
 use crate::body::{CHORDS, SingularPlace, Unbounded, singular_places};
 use crate::contact::Configuration;
-use crate::discretisation::{Contact, ContactPressure, Discretisation, Field, Solution, SystemError};
+use crate::discretisation::{Contact, ContactPressure, Discretisation, Field, SystemError};
 use crate::element::von_mises;
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, Spot, lattice};
@@ -74,58 +74,59 @@ fn nodes_of<'a>(
     })
 }
 
-/// The largest von Mises stress of each part, the same on all ranks. `singular` are the places where the stress has no bound.
-/// **Collective**
-pub fn stress_peaks(
-    problem: &Discretisation,
-    (u, stress): (&Field<2>, &NodalStress),
-    singular: &[SingularPlace],
-    session: &Session,
-) -> Vec<StressPeak> {
-    let mesh = &problem.scene.mesh;
-    let level = problem.finest().numbering.level;
-    // Macro triangles where the stress is as large as before them, or nearly: among them are those of the largest one.
-    let mut largest = vec![0.0_f64; mesh.parts.len()];
-    let mut candidates: Vec<u32> = Vec::new();
-    for ((triangle, _), part, node) in all_nodes(problem, session) {
-        let stress = von_mises(stress.at(part, node));
-        if stress >= (1.0 - ALIKE) * largest[part] {
-            largest[part] = largest[part].max(stress);
-            if candidates.last() != Some(&(triangle as u32)) {
-                candidates.push(triangle as u32);
+impl Evaluation<'_> {
+    /// The largest von Mises stress of each part; of each contact it is known whether λ `grows` without bound. **Collective**
+    ///
+    /// # Errors
+    /// As [`Evaluation::new`].
+    pub fn stress_peaks(&self, grows: &[bool]) -> Result<Vec<StressPeak>, SystemError> {
+        let (problem, mesh, stress) = (self.problem, &self.problem.scene.mesh, self.stress()?);
+        let (level, singular) = (problem.finest().numbering.level, all_singular_places(self, grows));
+        // Macro triangles where the stress is as large as before them, or nearly: among them are those of the largest one.
+        let mut largest = vec![0.0_f64; mesh.parts.len()];
+        let mut candidates: Vec<u32> = Vec::new();
+        for ((triangle, _), part, node) in all_nodes(problem, self.session) {
+            let stress = von_mises(stress.at(part, node));
+            if stress >= (1.0 - ALIKE) * largest[part] {
+                largest[part] = largest[part].max(stress);
+                if candidates.last() != Some(&(triangle as u32)) {
+                    candidates.push(triangle as u32);
+                }
             }
         }
-    }
-    session.max(&mut largest);
-    // How far the node lies in the direction, its number, its place and its displacement.
-    let mut own = vec![[f64::INFINITY; 6]; largest.len()];
-    for ((triangle, at), part, node) in nodes_of(problem, candidates.iter().copied()) {
-        if von_mises(stress.at(part, node)) < (1.0 - ALIKE) * largest[part] {
-            continue;
+        self.session.max(&mut largest);
+        // How far the node lies in the direction, its number, its place and its displacement.
+        let mut own = vec![[f64::INFINITY; 6]; largest.len()];
+        for ((triangle, at), part, node) in nodes_of(problem, candidates.iter().copied()) {
+            if von_mises(stress.at(part, node)) < (1.0 - ALIKE) * largest[part] {
+                continue;
+            }
+            let (x, [ux, uy]) = (mesh.node_position(triangle, level, at), self.u.at(node));
+            let along = FIRST[0] * x.x + FIRST[1] * x.y;
+            if along < own[part][0] {
+                own[part] = [along, node as f64, x.x, x.y, ux, uy];
+            }
         }
-        let (x, [ux, uy]) = (mesh.node_position(triangle, level, at), u.at(node));
-        let along = FIRST[0] * x.x + FIRST[1] * x.y;
-        if along < own[part][0] {
-            own[part] = [along, node as f64, x.x, x.y, ux, uy];
+        let mut firsts = vec![[f64::INFINITY; 6]; largest.len()];
+        for (at, found) in self.session.gather_all(own.as_flattened()).as_chunks::<6>().0.iter().enumerate() {
+            let first = &mut firsts[at % largest.len()];
+            *first = if found[0] < first[0] { *found } else { *first };
         }
+        let nodes: Vec<usize> = firsts.iter().map(|first| first[1] as usize).collect();
+        let edges = edges_at(problem, &nodes, &candidates, self.session);
+        let size = mesh.vertices.iter().map(|x| x.amax()).fold(0.0, f64::max);
+        let peak = |(part, [_, _, x, y, ux, uy]): (usize, [f64; 6])| {
+            let (place, displacement) = (without_rounding(Point::new(x, y), size), Point::new(ux, uy));
+            let away =
+                |other: &SingularPlace| (if other.is_deformed { place + displacement } else { place } - other.place).norm();
+            let is_near =
+                |other: &&SingularPlace| other.body == mesh.parts[part].body as usize && away(other) <= NEAR * edges[part];
+            let near = singular.iter().filter(is_near);
+            let unbounded = near.min_by(|a, b| away(a).total_cmp(&away(b))).cloned();
+            StressPeak { von_mises: largest[part], place, displacement, unbounded }
+        };
+        Ok(firsts.into_iter().enumerate().map(peak).collect())
     }
-    let mut firsts = vec![[f64::INFINITY; 6]; largest.len()];
-    for (at, found) in session.gather_all(own.as_flattened()).as_chunks::<6>().0.iter().enumerate() {
-        let first = &mut firsts[at % largest.len()];
-        *first = if found[0] < first[0] { *found } else { *first };
-    }
-    let nodes: Vec<usize> = firsts.iter().map(|first| first[1] as usize).collect();
-    let edges = edges_at(problem, &nodes, &candidates, session);
-    let size = mesh.vertices.iter().map(|x| x.amax()).fold(0.0, f64::max);
-    let peak = |(part, [_, _, x, y, ux, uy]): (usize, [f64; 6])| {
-        let (place, displacement) = (without_rounding(Point::new(x, y), size), Point::new(ux, uy));
-        let away = |other: &SingularPlace| (if other.is_deformed { place + displacement } else { place } - other.place).norm();
-        let is_near = |other: &&SingularPlace| other.body == mesh.parts[part].body as usize && away(other) <= NEAR * edges[part];
-        let near = singular.iter().filter(is_near);
-        let unbounded = near.min_by(|a, b| away(a).total_cmp(&away(b))).cloned();
-        StressPeak { von_mises: largest[part], place, displacement, unbounded }
-    };
-    firsts.into_iter().enumerate().map(peak).collect()
 }
 
 /// The longest edge of a triangle at a node of each part (length); `triangles` have all that lie there on this rank. **Collective**
@@ -149,13 +150,8 @@ fn edges_at(problem: &Discretisation, nodes: &[usize], triangles: &[u32], sessio
 
 /// All places where the stress has no bound: by the shape of a body and what holds it, at points that carry a force, where a corner
 /// presses at the end of a contact, and at the ends of those contacts whose pressure `grows`.
-pub fn all_singular_places(
-    problem: &Discretisation,
-    solution: &Solution,
-    balance: &Balance,
-    grows: &[bool],
-) -> Vec<SingularPlace> {
-    let scene = &problem.scene;
+fn all_singular_places(found: &Evaluation, grows: &[bool]) -> Vec<SingularPlace> {
+    let (problem, scene, balance) = (found.problem, &found.problem.scene, &found.balance);
     let mut all = singular_places(&scene.mesh, &scene.parts(), &scene.supports, &scene.rigid);
     let held = scene.supports.iter().zip(&balance.reactions);
     let held =
@@ -163,7 +159,9 @@ pub fn all_singular_places(
     all.extend(held.chain(scene.point_loads.iter().map(|load| &load.at)).filter_map(|spot| at_point(problem, spot)));
     let angles = scene.mesh.boundary_vertices().into_iter().map(|found| (found.vertex, found.angle)).collect();
     let contacts = problem.contacts.iter().zip(grows);
-    all.extend(contacts.flat_map(|(contact, grows)| contact_ends((&scene.mesh, &angles), &solution.pressure(contact), *grows)));
+    all.extend(
+        contacts.flat_map(|(contact, grows)| contact_ends((&scene.mesh, &angles), &found.solution.pressure(contact), *grows)),
+    );
     let size = scene.mesh.vertices.iter().map(|x| x.amax()).fold(0.0, f64::max);
     all.iter_mut().for_each(|found| found.place = without_rounding(found.place, size));
     all
