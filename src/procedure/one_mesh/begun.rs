@@ -7,7 +7,6 @@
 //! operations, some 20 000 triangles of each body on the coarsest mesh, they begin without it: two bars of 78 thousand triangles
 //! each, P2, took as many sets and iterations either way, and the programme 65 of 79 s.
 
-use crate::accuracy::share_of_nothing;
 use crate::contact::Known;
 use crate::discretisation::{
     BoundaryMotion, Contact, Discretisation, Scene, Space, SystemError, bilateral, finest_numbering, not_held,
@@ -16,7 +15,7 @@ use crate::discretisation::{
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, Level, Numbering, Partition};
 use crate::procedure::one_mesh::wide_contact::{
-    Fineness, asked, drawn_contacts, largest_force, narrowed, tips, wide_contacts, with_touch,
+    Fineness, asked, drawn_contacts, least_force, narrowed, wide_contacts, with_touch,
 };
 use crate::procedure::sequence::LoadedPlace;
 use crate::procedure::settings::Procedure;
@@ -65,16 +64,13 @@ impl Procedure<'_> {
         let predictor = if self.session.rank() == 0 { Predictor::new(&whole, &numbering).map(Some) } else { Ok(None) };
         let predictor = self.session.agree(predictor).map_err(SystemError::Case)?;
         let predict = |contacts: &[Contact]| self.shared(predictor.as_ref(), contacts, numbering.node_count());
-        let (wide, found) = match asked(&whole, &numbering, wide, predict)? {
+        let (wide, found) = match asked(&whole, &numbering, wide, self.accuracy, predict)? {
             (wide, Prediction::Held(found)) => (wide, found),
             (_, Prediction::Driven { words, .. }) => return free(scene, words),
             (_, Prediction::Unknown(_)) => return unknown(scene),
         };
         let pressing = active(&drawn_contacts(&wide), &found);
-        let least = share_of_nothing(self.accuracy) * largest_force(&wide, &found.pressures);
-        if let Some(words) = tips(&whole, &numbering, &wide, (&found.pressures, least), predict)? {
-            return free(scene, words);
-        }
+        let least = least_force(&wide, &found.pressures, self.accuracy);
         let known: Vec<Known> = wide.iter().map(|wide| narrowed(wide, &pressing, &found, least)).collect();
         let displacement = |node: EdgeNode| found.displacement[node.number(&whole.mesh, &numbering)];
         let contacts = Contact::all_again(&whole, &numbering, 0, &known, &displacement)?;

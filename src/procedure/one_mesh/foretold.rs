@@ -1,13 +1,11 @@
 //! What the quadratic programme says of a scene that is not solved: whether its loads drive a body off all its contacts.
 
-use crate::accuracy::{Accuracy, share_of_nothing};
+use crate::accuracy::Accuracy;
 use crate::discretisation::{Contact, Scene, SystemError, finest_numbering};
 use crate::mesh::Numbering;
 use crate::procedure::one_mesh::begun::{MOST_WORK, work_of_programme};
 use crate::procedure::one_mesh::meshes::COARSER;
-use crate::procedure::one_mesh::wide_contact::{
-    Fineness, WideContact, asked, drawn_contacts, largest_force, tips, wide_contacts,
-};
+use crate::procedure::one_mesh::wide_contact::{Fineness, WideContact, asked, drawn_contacts, wide_contacts};
 use crate::procedure::settings::Procedure;
 use crate::programme::{Prediction, Predictor};
 
@@ -41,12 +39,8 @@ fn said_by_programme(
 ) -> Result<Option<String>, SystemError> {
     let predictor = Predictor::new(scene, numbering)?;
     let predict = |contacts: &[Contact]| predictor.predict(contacts);
-    match asked(scene, numbering, wide, predict)? {
-        (wide, Prediction::Held(found)) => {
-            let least = share_of_nothing(accuracy) * largest_force(&wide, &found.pressures);
-            tips(scene, numbering, &wide, (&found.pressures, least), predict)
-        }
-        (_, Prediction::Driven { words, .. }) => Ok(Some(words)),
-        (_, Prediction::Unknown(_)) => Ok(None),
+    match asked(scene, numbering, wide, accuracy, predict)?.1 {
+        Prediction::Driven { words, .. } => Ok(Some(words)),
+        Prediction::Held(_) | Prediction::Unknown(_) => Ok(None),
     }
 }

@@ -1,5 +1,6 @@
 //! Contacts as the programme of the first mesh has them, and where Γ_C lies by what it says of them.
 
+use crate::accuracy::{Accuracy, share_of_nothing};
 use crate::body::Body;
 use crate::contact::{Known, MultiplierSpace, Pair, PointContact, SegmentRule, SmoothSide, Stabilise, point_contact};
 use crate::discretisation::{Contact, Scene, SystemError, widest};
@@ -106,48 +107,39 @@ pub(crate) fn drawn_contacts(wide: &[WideContact]) -> Vec<Contact> {
     wide.iter().map(|wide| wide.contact.clone()).collect()
 }
 
-/// The largest force of a contact.
-pub(crate) fn largest_force(wide: &[WideContact], pressures: &[f64]) -> f64 {
-    wide.iter().map(|wide| wide.force(pressures)).fold(0.0, f64::max)
+/// The largest force of a contact that is nothing by the accuracy that is asked for.
+pub(crate) fn least_force(wide: &[WideContact], pressures: &[f64], accuracy: Option<&Accuracy>) -> f64 {
+    share_of_nothing(accuracy) * wide.iter().map(|wide| wide.force(pressures)).fold(0.0, f64::max)
 }
 
 /// What a programme says of contacts, with them. Where it lets a body go it is asked again on fine segments: one long segment pushes
-/// along its mean normal alone, and a roller that climbs to the end of its seat needs that of the end. **Collective** where
-/// `predict` is.
+/// along its mean normal alone, and a roller that climbs to the end of its seat needs that of the end. Where what presses on a contact
+/// lies elsewhere than the contact as it is drawn, it is asked of that, too: a body may have to turn before contact holds it. A force
+/// that is nothing by the `accuracy` does not count. **Collective** where `predict` is.
 pub(crate) fn asked(
     scene: &Scene,
     numbering: &Numbering,
-    wide: Vec<WideContact>,
+    mut wide: Vec<WideContact>,
+    accuracy: Option<&Accuracy>,
     predict: impl Fn(&[Contact]) -> Result<Prediction, SystemError>,
 ) -> Result<(Vec<WideContact>, Prediction), SystemError> {
-    let answer = predict(&drawn_contacts(&wide))?;
-    if !matches!(answer, Prediction::Driven { .. }) {
-        return Ok((wide, answer));
+    let mut answer = predict(&drawn_contacts(&wide))?;
+    if let Prediction::Driven { .. } = answer {
+        wide = wide_contacts(scene, numbering, Fineness::Fine)?;
+        answer = predict(&drawn_contacts(&wide))?;
     }
-    let fine = wide_contacts(scene, numbering, Fineness::Fine)?;
-    let answer = predict(&drawn_contacts(&fine))?;
-    Ok((fine, answer))
-}
-
-/// Words for a body that has to turn before contacts hold it that lie as they are drawn, if what presses on one of them lies
-/// elsewhere; nothing if none has. A force below `least` does not count. **Collective** where `predict` is.
-pub(crate) fn tips(
-    scene: &Scene,
-    numbering: &Numbering,
-    wide: &[WideContact],
-    (pressures, least): (&[f64], f64),
-    predict: impl Fn(&[Contact]) -> Result<Prediction, SystemError>,
-) -> Result<Option<String>, SystemError> {
-    if !wide.iter().any(|wide| wide.presses_elsewhere(pressures, least)) {
-        return Ok(None);
+    let Prediction::Held(FoundByProgramme { pressures, .. }) = &answer else { return Ok((wide, answer)) };
+    let least = least_force(&wide, pressures, accuracy);
+    if wide.iter().any(|wide| wide.presses_elsewhere(pressures, least)) {
+        let drawn: Vec<Known> = wide.iter().map(|wide| wide.as_drawn(pressures, least)).collect();
+        // Where a contact cannot lie, nothing is said.
+        if let Ok(contacts) = Contact::all_again(scene, numbering, 0, &drawn, &|_: EdgeNode| Point::zeros())
+            && let tips @ Prediction::Driven { turns: true, .. } = predict(&contacts)?
+        {
+            answer = tips;
+        }
     }
-    let drawn: Vec<Known> = wide.iter().map(|wide| wide.as_drawn(pressures, least)).collect();
-    // Where a contact cannot lie, nothing is said.
-    let Ok(contacts) = Contact::all_again(scene, numbering, 0, &drawn, &|_: EdgeNode| Point::zeros()) else { return Ok(None) };
-    Ok(match predict(&contacts)? {
-        Prediction::Driven { words, turns: true } => Some(words),
-        _ => None,
-    })
+    Ok((wide, answer))
 }
 
 fn wide_contact(
