@@ -56,7 +56,7 @@ pub use multiplier::{DiagonalBlock, Multipliers};
 pub use pair::{Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Stabilise};
 pub use penetration::{Penetration, penetration};
 pub use placing::{Known, Placed, PlacingError, place};
-pub use pressure::{End, Roughness, Zone, faded_end, oscillation, recovered_peak, roughness, true_end, zone_counts};
+pub use pressure::{Roughness, Zone, faded_end, oscillation, recovered_peak, roughness, true_end, zone_counts};
 pub use sets::{ActiveSet, SetChange, SetSolution};
 pub use side::Side;
 pub use smooth_side::{Displacement, SmoothSide};

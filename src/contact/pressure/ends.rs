@@ -7,39 +7,31 @@
 use crate::contact::contact_boundary::ContactBoundary;
 use crate::contact::multiplier::Multipliers;
 
-/// Which end of Γ_C.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
-    /// Where the arc length is zero.
-    First,
-    /// Where it is largest.
-    Last,
-}
-
 /// Arc length (length) at which contact ends, by the pressures of the last two segments that carry any: at most one segment
 /// from where the last of them ends, half a segment into one that carries nothing. Where only one carries pressure it
-/// is its end. Nothing if that is the only segment, or none does.
-pub fn true_end(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], active: &[bool], end: End) -> Option<f64> {
+/// is its end. Nothing if that is the only segment, or none does. The `end` is the first (0) or the last (1).
+pub fn true_end(
+    boundary: &ContactBoundary,
+    multipliers: &Multipliers,
+    lambda: &[f64],
+    active: &[bool],
+    end: usize,
+) -> Option<f64> {
     let carries = |k: &usize| {
         let rows = multipliers.on_segment(*k, 0.0).0;
         rows.iter().take(multipliers.per_segment()).any(|&i| active[i])
     };
-    let before = |k: usize| k.checked_sub(1);
-    let behind = |k: usize| Some(k + 1).filter(|&k| k < boundary.segments());
-    let inner = |k: usize| if end == End::First { behind(k) } else { before(k) };
-    let (outer, outwards) = match end {
-        End::First => ((0..boundary.segments()).find(carries)?, -1.0),
-        End::Last => ((0..boundary.segments()).rev().find(carries)?, 1.0),
-    };
-    let (beyond, edge) = match end {
-        End::First => (before(outer), boundary.arcs()[outer]),
-        End::Last => (behind(outer), boundary.arcs()[outer + 1]),
-    };
+    // The segment before another (0), or behind it (1).
+    let beside =
+        |k: usize, way: usize| if way == 0 { k.checked_sub(1) } else { Some(k + 1).filter(|&k| k < boundary.segments()) };
+    let mut carrying = (0..boundary.segments()).filter(carries);
+    let (outer, outwards) = if end == 0 { (carrying.next()?, -1.0) } else { (carrying.next_back()?, 1.0) };
+    let (beyond, edge) = (beside(outer, end), boundary.arcs()[outer + end]);
     let mean = |k: usize| multipliers.value(lambda, k, 0.5);
-    let excess = match inner(outer).filter(carries) {
+    let excess = match beside(outer, 1 - end).filter(carries) {
         Some(next) => {
             let lengths = [outer, next].map(|k| boundary.segment_length(k));
-            let third = inner(next).filter(carries).map(|k| (mean(k), boundary.segment_length(k)));
+            let third = beside(next, 1 - end).filter(carries).map(|k| (mean(k), boundary.segment_length(k)));
             if third.is_some_and(|(third, length)| fades([mean(outer), mean(next), third], [lengths[0], lengths[1], length])) {
                 return Some(edge);
             }
@@ -88,7 +80,7 @@ mod tests {
         };
         for (exact, tolerance) in [(1.0, 1e-12), (1.001, 1e-4), (1.01, 3e-3), (1.03, 1.2e-2), (0.97, 1e-2)] {
             let lambda: Vec<f64> = (0..10).map(|k| mean(exact, k)).collect();
-            let found = true_end(&boundary, &multipliers, &lambda, &[true; 10], End::Last).expect("two segments");
+            let found = true_end(&boundary, &multipliers, &lambda, &[true; 10], 1).expect("two segments");
             assert!((found - exact).abs() < tolerance, "{found} for {exact}");
         }
     }
@@ -109,9 +101,9 @@ mod tests {
         let multipliers = Multipliers::new(MultiplierSpace::P0, &boundary);
         let active: Vec<bool> = (0..10).map(|k| (3..7).contains(&k)).collect();
         let lambda = [0.0, 0.0, 0.0, 2.0, 0.83, 0.83, 2.0, 0.0, 0.0, 0.0];
-        for (end, expected) in [(End::First, 0.25), (End::Last, 0.75)] {
+        for (end, expected) in [(0, 0.25), (1, 0.75)] {
             let found = true_end(&boundary, &multipliers, &lambda, &active, end).expect("four segments");
-            assert!((found - expected).abs() < 1e-12, "{end:?}: {found}");
+            assert!((found - expected).abs() < 1e-12, "{end}: {found}");
         }
     }
 
@@ -119,13 +111,13 @@ mod tests {
     fn one_segment_says_nothing() {
         let boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [1.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
         let multipliers = Multipliers::new(MultiplierSpace::P0, &boundary);
-        assert_eq!(true_end(&boundary, &multipliers, &[1.0], &[true], End::First), None);
+        assert_eq!(true_end(&boundary, &multipliers, &[1.0], &[true], 0), None);
     }
 
     /// Pressures of all kinds on uneven segments, and the same seen from the other side.
     #[test]
     fn the_first_end_is_found_as_the_last_one_is() {
-        let place = |ends: &[f64], lambda: &[f64], active: &[bool], end: End| {
+        let place = |ends: &[f64], lambda: &[f64], active: &[bool], end: usize| {
             let mut boundary = ContactBoundary::new(Curve::Line([[0.0, 0.0], [1.0, 0.0]]), [0.0, 1.0], Point::new(0.0, 1.0));
             boundary.cut(ends);
             true_end(&boundary, &Multipliers::new(MultiplierSpace::P0, &boundary), lambda, active, end)
@@ -144,10 +136,10 @@ mod tests {
             let (mut mirrored, mut active_back) = (lambda.to_vec(), active.clone());
             mirrored.reverse();
             active_back.reverse();
-            let first = place(&ends, &lambda, &active, End::First).expect("an end");
-            let last = place(&back, &mirrored, &active_back, End::Last).expect("an end");
+            let first = place(&ends, &lambda, &active, 0).expect("an end");
+            let last = place(&back, &mirrored, &active_back, 1).expect("an end");
             assert!((first + last - 1.0).abs() < 1e-12, "{is_active}: {first} and {last}");
-            let other = place(&ends, &lambda, &active, End::Last).expect("an end");
+            let other = place(&ends, &lambda, &active, 1).expect("an end");
             if let Some(wanted) = wanted {
                 assert!((first - wanted[0]).abs() < 1e-12 && (other - wanted[1]).abs() < 1e-12, "{is_active}: {first}, {other}");
             }

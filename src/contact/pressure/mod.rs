@@ -7,7 +7,7 @@ mod peak;
 mod reconstruction;
 mod zones;
 
-pub use ends::{End, true_end};
+pub use ends::true_end;
 pub use fading::faded_end;
 pub use oscillation::oscillation;
 pub use peak::recovered_peak;

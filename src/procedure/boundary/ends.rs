@@ -1,6 +1,6 @@
 //! Where the ends of a contact boundary go, by the pressure on it or by its force.
 
-use crate::contact::{End, true_end};
+use crate::contact::true_end;
 use crate::discretisation::{Contact, ContactPressure};
 
 /// Segments that press, at least, where an end is told by the pressure beside it: of a contact narrower than that the mesh knows the
@@ -47,14 +47,14 @@ pub fn free_ends(pressure: &ContactPressure, history: &mut [FoundEnd; 2], least:
     if pressing_segments(pressure) < TELLING && active.contains(&false) {
         return now;
     }
-    for (k, end) in [End::First, End::Last].into_iter().enumerate() {
+    for k in [0, 1] {
         // At the end of a body contact may end with any pressure: it stays there, wherever the body goes.
-        let last = multipliers_at(contact, end);
+        let last = multipliers_at(contact, k);
         if (now[k] - contact.limits[k]).abs() < AT_THE_END * edge && last.iter().all(|&i| active[i]) {
-            next[k] = contact.limits[k] + if end == End::First { -edge } else { edge };
+            next[k] = contact.limits[k] + if k == 0 { -edge } else { edge };
             continue;
         }
-        let Some(arc) = true_end(boundary, &contact.multipliers, lambda, active, end) else { continue };
+        let Some(arc) = true_end(boundary, &contact.multipliers, lambda, active, k) else { continue };
         let off = boundary.parameter_at(arc) - now[k];
         let step = match history[k] {
             Some((before, was)) if now[k] != before => {
@@ -65,7 +65,7 @@ pub fn free_ends(pressure: &ContactPressure, history: &mut [FoundEnd; 2], least:
         };
         history[k] = Some((now[k], off));
         let found = now[k] + step;
-        next[k] = if end == End::First { found.max(contact.limits[0]) } else { found.min(contact.limits[1]) };
+        next[k] = if k == 0 { found.max(contact.limits[0]) } else { found.min(contact.limits[1]) };
     }
     // A contact smaller than an edge is none that the mesh can tell.
     if next[1].min(contact.limits[1]) - next[0].max(contact.limits[0]) > edge { next } else { now }
@@ -120,9 +120,9 @@ fn pressing_segments(pressure: &ContactPressure) -> usize {
     (last + 1).saturating_sub(first)
 }
 
-/// Multipliers of the segment at an end.
-fn multipliers_at(contact: &Contact, end: End) -> Vec<usize> {
-    let segment = if end == End::First { 0 } else { contact.boundary.segments() - 1 };
+/// Multipliers of the segment at the first end (0) or the last (1).
+fn multipliers_at(contact: &Contact, end: usize) -> Vec<usize> {
+    let segment = if end == 0 { 0 } else { contact.boundary.segments() - 1 };
     let rows = contact.multipliers.on_segment(segment, 0.0).0;
     rows[..contact.multipliers.per_segment()].to_vec()
 }
