@@ -7,7 +7,7 @@
 
 use crate::accuracy::{Goal, ProbePoint, Quantity};
 use crate::contact::Zone;
-use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, Space, SystemError};
+use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, SystemError, load};
 use crate::geometry::{Point, gauss_points};
 use crate::mesh::Cells;
 use crate::petsc::Session;
@@ -114,7 +114,7 @@ impl Duals<'_> {
             return Ok(vec![0.0; space.local_unknowns()]);
         };
         let forces = stress_forces(problem, &change, region, point.point, session)?;
-        Ok(free_forces(space, &forces))
+        Ok(load(problem, &forces))
     }
 }
 
@@ -164,7 +164,7 @@ fn point_force(
     solution: &Solution,
     system: &System,
 ) -> Result<Vec<f64>, SystemError> {
-    let (space, session) = (problem.finest(), system.session());
+    let session = system.session();
     let u = Field::displacement(problem, &solution.displacement, session)?;
     let mut force = Field::<2>::zeros(&problem.scene, problem.finest(), session);
     let region = problem.scene.mesh.region(&point.body);
@@ -178,16 +178,7 @@ fn point_force(
             sum[1] += value * direction.y;
         }
     }
-    Ok(free_forces(space, &force.sum(session)?))
-}
-
-/// This rank's nodal forces in the nodes' frames, without what supports take.
-fn free_forces(space: &Space, forces: &Field<2>) -> Vec<f64> {
-    let free = |(at, [x, y]): (usize, &[f64; 2])| {
-        let v = space.free_part(space.own.start + at, Point::new(*x, *y));
-        [v.x, v.y]
-    };
-    forces.own().iter().enumerate().flat_map(free).collect()
+    Ok(load(problem, &force.sum(session)?))
 }
 
 /// What each cell of this rank's macro triangles counts for a goal: the product of what is left there of the solution and of the
