@@ -100,7 +100,7 @@ fn seen_nodes(scene: &Scene, space: &Space, rank: usize) -> Vec<usize> {
     let n = space.numbering.level.intervals;
     let seen = scene.partition.with_nodes_of_others(rank).iter().flat_map(|&triangle| {
         let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
-        (0..3).flat_map(move |side| (0..n).map(move |p| lattice::side_node(n, side, p))).map(move |(i, j)| numbers.node(i, j))
+        lattice::sides(n).map(move |(i, j)| numbers.node(i, j))
     });
     each_once(seen.filter(|node| !space.own.contains(node)))
 }

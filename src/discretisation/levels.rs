@@ -8,7 +8,7 @@ use crate::discretisation::held_bodies::HeldBodies;
 use crate::discretisation::level_ranks::ranks_in_group;
 use crate::discretisation::scene::Scene;
 use crate::discretisation::space::Space;
-use crate::mesh::{Level, MacroMesh, Numbering, levels};
+use crate::mesh::{Level, MacroMesh, Numbering, lattice, levels};
 use crate::petsc::{Index, Session};
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -156,9 +156,8 @@ fn check_size(scene: &Scene, numbering: &Numbering, bits: u32) -> Result<(), Sys
 
 /// Nodes of a level, whoever owns them.
 pub fn node_count(mesh: &MacroMesh, level: Level) -> u64 {
-    let n = level.intervals as u64;
-    let inner = if n < 3 { 0 } else { (n - 1) * (n - 2) / 2 };
-    mesh.vertices.len() as u64 + mesh.edges.len() as u64 * (n - 1) + mesh.triangles.len() as u64 * inner
+    let (on_edge, inside) = (level.intervals as u64 - 1, lattice::inner_count(level.intervals) as u64);
+    mesh.vertices.len() as u64 + mesh.edges.len() as u64 * on_edge + mesh.triangles.len() as u64 * inside
 }
 
 /// The nodes of the level that is solved in.

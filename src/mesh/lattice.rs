@@ -79,6 +79,11 @@ pub fn side_node(n: usize, side: usize, position: usize) -> (usize, usize) {
     }
 }
 
+/// Nodes on the sides, around the triangle from corner 0 on.
+pub fn sides(n: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..3).flat_map(move |side| (0..n).map(move |position| side_node(n, side, position)))
+}
+
 /// Triangles of the lattice for an element order: their nodes, corners first, then the midsides of (01), (12), (20).
 ///
 /// A triangle that points up comes with `false`, its point reflection with `true`; both have the corner order that

@@ -177,7 +177,7 @@ impl<'a> Assembly<'a> {
             };
             show(k, (i, j));
         };
-        if part.is_own && !part.is_whole { all(n).for_each(&mut show) } else { sides(n).for_each(&mut show) }
+        if part.is_own && !part.is_whole { lattice::nodes(n).for_each(&mut show) } else { lattice::sides(n).for_each(&mut show) }
     }
 
     /// Shows the couplings of different nodes in a macro triangle that is a single triangle: the place of the row, and the
@@ -234,7 +234,7 @@ impl<'a> Assembly<'a> {
             lattice::Place::Inside(_) => None,
             _ => self.space.constraints.get(node),
         };
-        let is_supported = sides(n).any(|(i, j)| constraint(i, j, part.numbers.node(i, j)).is_some());
+        let is_supported = lattice::sides(n).any(|(i, j)| constraint(i, j, part.numbers.node(i, j)).is_some());
         self.each_row(part, |place, (i, j)| {
             let row = part.numbers.node(i, j);
             let held = if is_supported { constraint(i, j, row) } else { None };
@@ -328,16 +328,6 @@ fn touches(n: usize, space: &Space, numbers: &TriangleNumbers) -> bool {
 fn coupled(level: Level, i: usize, j: usize) -> impl Iterator<Item = (usize, usize)> {
     let nodes = neighbours(level.order, i, j).iter().map(move |&(di, dj)| (i.wrapping_add_signed(di), j.wrapping_add_signed(dj)));
     nodes.filter(move |&(a, b)| a <= level.intervals && b <= level.intervals && a + b <= level.intervals)
-}
-
-/// Nodes on the sides of a lattice.
-fn sides(n: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..3).flat_map(move |side| (0..n).map(move |position| lattice::side_node(n, side, position)))
-}
-
-/// All nodes of a lattice, row by row.
-fn all(n: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..=n).flat_map(move |j| (0..=n - j).map(move |i| (i, j)))
 }
 
 /// A block in the frames of its nodes, without the couplings of prescribed components.
