@@ -204,7 +204,8 @@ fn of_all_ranks(own: &[Touch], session: &Session) -> Vec<Touch> {
 /// Everything that supports hold, at the macro vertices.
 fn support_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
     let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, &scene.partition);
-    let normals = normal_supports(scene);
+    let along_normals = scene.supports.iter().filter(|support| support.normal.is_some());
+    let normals = mean_normals(&scene.mesh, along_normals.map(|support| scene.mesh.edges_on(&support.on).collect()));
     let condition = |held: Held| {
         // A direction along the mean of two chords' normals stands for the normal of their arc.
         let smooth = normals.get(&held.vertex).map(|normal| normal * normal.dot(&held.direction).signum());
@@ -244,7 +245,7 @@ fn spring_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
     let mut all = Vec::new();
     for springs in &scene.springs {
         let edges = springs.edges(mesh);
-        let normals = mean_normals(mesh, &edges);
+        let normals = mean_normals(mesh, [edges.clone()]);
         for &edge in &edges {
             for vertex in mesh.edges[edge as usize].vertices {
                 let place = mesh.vertices[vertex as usize];
@@ -257,28 +258,12 @@ fn spring_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
     all
 }
 
-/// Smooth normals at the vertices of some edges.
-fn mean_normals(mesh: &MacroMesh, edges: &[u32]) -> HashMap<u32, Point> {
-    let smooth = SmoothNormals::new(mesh, edges);
+/// Smooth normals at the vertices of groups of edges: means over the edges there, each of which goes on in its own group alone.
+fn mean_normals(mesh: &MacroMesh, groups: impl IntoIterator<Item = Vec<u32>>) -> HashMap<u32, Point> {
     let mut normals = HashMap::new();
-    for &edge in edges {
-        for (vertex, t) in mesh.edges[edge as usize].vertices.into_iter().zip([0.0, 1.0]) {
-            *normals.entry(vertex).or_insert_with(Point::zeros) += smooth.at(mesh, edge, t).normal;
-        }
-    }
-    normals.values_mut().for_each(|normal: &mut Point| *normal = normal.normalize());
-    normals
-}
-
-/// Smooth normals at the vertices that supports hold along the normal.
-fn normal_supports(scene: &Scene) -> HashMap<u32, Point> {
-    let mesh = &scene.mesh;
-    let mut normals = HashMap::new();
-    for support in scene.supports.iter().filter(|support| support.normal.is_some()) {
-        let on = support.on.iter().filter_map(|name| mesh.boundary(name));
-        let edges: Vec<u32> = on.flat_map(|boundary| boundary.edges.iter().copied()).collect();
+    for edges in groups {
         let smooth = SmoothNormals::new(mesh, &edges);
-        for &edge in &edges {
+        for edge in edges {
             for (vertex, t) in mesh.edges[edge as usize].vertices.into_iter().zip([0.0, 1.0]) {
                 *normals.entry(vertex).or_insert_with(Point::zeros) += smooth.at(mesh, edge, t).normal;
             }
