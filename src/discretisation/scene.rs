@@ -130,7 +130,7 @@ impl Scene {
     /// The box around the boundaries that a tool is in contact with; nothing if a body is no tool.
     fn faced_by_tool(&self, body: usize) -> Option<[Point; 2]> {
         self.tool(body)?;
-        let edges = |name: &String| self.mesh.boundary(name).map(|found| found.edges.as_slice()).unwrap_or(&[]);
+        let edges = |name: &String| self.mesh.edges_of(name);
         let is_own = |name: &String| edges(name).first().is_some_and(|&edge| self.mesh.body_beside(edge) == body);
         let pairs = self.pairs.iter().filter(|pair| pair.between.iter().any(is_own));
         let faced = pairs.flat_map(|pair| pair.between.iter().filter(|name| !is_own(name))).flat_map(edges);
@@ -151,8 +151,7 @@ pub fn spread(mesh: &MacroMesh, pairs: &[Pair], order: Order, refine: usize, ses
     if session.size() == 1 {
         return Ok(Partition::new(mesh, &vec![0; mesh.triangles.len()], 1));
     }
-    let side = |name: &String| mesh.boundary(name).map(|found| found.edges.as_slice()).unwrap_or(&[]);
-    let sides: Vec<[&[u32]; 2]> = pairs.iter().map(|pair| pair.between.each_ref().map(side)).collect();
+    let sides: Vec<[&[u32]; 2]> = pairs.iter().map(|pair| pair.between.each_ref().map(|name| mesh.edges_of(name))).collect();
     let graph = Graph::new(mesh, &sides);
     let (size, work) = (session.size(), mesh.work(order, refine));
     let ranks = partition(session, size, &graph.offsets, &graph.neighbours, &graph.connection_weights, &work)?;

@@ -44,6 +44,5 @@ fn contact_nodes<'a>(scene: &'a Scene, space: &Space) -> impl Iterator<Item = Ed
     let mesh = &scene.mesh;
     let n = space.numbering.level.intervals as u32;
     let names = scene.pairs.iter().flat_map(|pair| &pair.between);
-    let edges = names.flat_map(|name| mesh.boundary(name).map(|b| b.edges.as_slice()).unwrap_or(&[]));
-    edges.flat_map(move |&edge| (0..=n).map(move |position| EdgeNode { edge, position }))
+    names.flat_map(|name| mesh.edges_of(name)).flat_map(move |&edge| (0..=n).map(move |position| EdgeNode { edge, position }))
 }

@@ -117,7 +117,7 @@ impl Contact {
         known: &Known,
         displacement: Displacement,
     ) -> Result<Self, SystemError> {
-        let sides = [0, 1].map(|k| scene.mesh.boundary(&pair.between[k]).map(|b| b.edges.clone()).unwrap_or_default());
+        let sides = [0, 1].map(|k| scene.mesh.edges_of(&pair.between[k]).to_vec());
         let bodies = [0, 1].map(|k: usize| scene.mesh.body_beside(sides[k][0]));
         let materials = SideMaterials::new(scene, &sides);
         let young = materials.ruling();
@@ -225,7 +225,7 @@ impl Contact {
 
     /// Rank that owns body 1's macro triangle at the middle of each segment.
     pub(crate) fn segment_owners(&self, scene: &Scene) -> Vec<usize> {
-        let edges = scene.mesh.boundary(&self.pair.between[0]).map(|b| b.edges.as_slice()).unwrap_or(&[]);
+        let edges = scene.mesh.edges_of(&self.pair.between[0]);
         let feet: Vec<[f64; 2]> = edges
             .iter()
             .map(|&edge| scene.mesh.edges[edge as usize].vertices.map(|v| self.boundary.foot(scene.mesh.vertices[v as usize])))

@@ -132,10 +132,7 @@ impl<'a> Restraints<'a> {
     /// What the closed multipliers of a contact that are this rank's resist, by the normals of body 1 and by those of body 2.
     fn touch(&self, contact: &Contact, extents: &[Extent], active: &[bool]) -> Touch {
         let mesh = &self.scene.mesh;
-        let normals = contact.pair.between.each_ref().map(|name| {
-            let edges = mesh.boundary(name).map(|boundary| boundary.edges.as_slice()).unwrap_or(&[]);
-            SmoothNormals::new(mesh, edges)
-        });
+        let normals = contact.pair.between.each_ref().map(|name| SmoothNormals::new(mesh, mesh.edges_of(name)));
         let mut touch = Touch::default();
         let is_own = |i: usize| self.shared.is_none_or(|(session, owners)| owners[i] == session.rank());
         for row in contact.range().filter(|&i| active[i] && is_own(i)).map(|i| &self.rows[i]) {

@@ -113,7 +113,7 @@ pub fn check_exact(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
 fn check_points(case: &Case, mesh: &MacroMesh, exact: &ContactExact) -> Result<(), String> {
     let Some(LambdaExact::Points { at, .. }) = &exact.lambda else { return Ok(()) };
     let Some(pair) = case.contacts.iter().find(|pair| pair.name == exact.name) else { return Ok(()) };
-    let sides = pair.between.each_ref().map(|name| mesh.boundary(name).map(|side| side.edges.as_slice()).unwrap_or_default());
+    let sides = pair.between.each_ref().map(|name| mesh.edges_of(name));
     let longest = sides.iter().copied().flatten().map(|&edge| mesh.edge_length(edge)).fold(0.0, f64::max);
     for &[x, y] in at {
         let here = Point::new(x, y);
