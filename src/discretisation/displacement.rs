@@ -27,4 +27,12 @@ impl Field<2> {
         let [x, y] = self.at(node);
         Point::new(x, y)
     }
+
+    /// Adds a vector to what a node has.
+    #[inline]
+    pub fn add_at(&mut self, node: usize, vector: Point) {
+        let sum = self.at_mut(node);
+        sum[0] += vector.x;
+        sum[1] += vector.y;
+    }
 }

@@ -49,18 +49,11 @@ impl<const K: usize> Field<K> {
         &self.own
     }
 
-    /// Adds another field of the same nodes.
-    pub fn add(&mut self, other: &Self) {
-        let plus = |values: &mut [f64; K], others: [f64; K]| (0..K).for_each(|k| values[k] += others[k]);
+    /// Adds a multiple of another field of the same nodes.
+    pub fn add(&mut self, factor: f64, other: &Self) {
+        let plus = |values: &mut [f64; K], others: [f64; K]| (0..K).for_each(|k| values[k] += factor * others[k]);
         self.own.iter_mut().zip(&other.own).for_each(|(values, others)| plus(values, *others));
         self.others.iter_mut().for_each(|(node, values)| plus(values, other.others[node]));
-    }
-
-    /// Takes away another field of the same nodes.
-    pub fn subtract(&mut self, other: &Self) {
-        let minus = |values: &mut [f64; K], others: [f64; K]| (0..K).for_each(|k| values[k] -= others[k]);
-        self.own.iter_mut().zip(&other.own).for_each(|(values, others)| minus(values, *others));
-        self.others.iter_mut().for_each(|(node, values)| minus(values, other.others[node]));
     }
 
     /// Other values, each of those at the same node.

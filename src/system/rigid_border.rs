@@ -315,7 +315,7 @@ fn moved_forces(
     }
     let moved = Field::displacement(problem, &moved, session)?;
     let (mut forces, springs) = (internal_forces(problem, &moved, session)?.1, SpringForces::new(problem, &moved, session)?);
-    forces.subtract(&springs.nodes);
+    forces.add(-1.0, &springs.nodes);
     Ok(forces)
 }
 

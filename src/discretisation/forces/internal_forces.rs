@@ -38,9 +38,7 @@ pub fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session
         let part = scene.mesh.triangles[triangle as usize].part as usize;
         each_force(problem, &laws, u, triangle as usize, |node, force, u| {
             strain[part] += 0.5 * force.dot(&u);
-            let sum = forces.at_mut(node);
-            sum[0] += force.x;
-            sum[1] += force.y;
+            forces.add_at(node, force);
         })
     });
     agreed(session, added)?;

@@ -23,7 +23,7 @@ pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field
         }
     };
     if problem.mean_forces.iter().flatten().any(|force| *force != 0.0) {
-        forces.add(&mean_forces(problem, session)?);
+        forces.add(1.0, &mean_forces(problem, session)?);
     }
     Ok(forces)
 }
@@ -32,11 +32,7 @@ pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field
 fn applied(problem: &Discretisation, session: &Session) -> Result<Field<2>, SystemError> {
     let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
     let mut forces = Field::<2>::zeros(scene, problem.finest(), session);
-    let add = |node, force: Point| {
-        let sum = forces.at_mut(node);
-        sum[0] += force.x;
-        sum[1] += force.y;
-    };
+    let add = |node, force| forces.add_at(node, force);
     let rank = session.rank();
     let applied = Applied { parts: &scene.parts(), loads: &scene.loads, point_loads: &scene.point_loads };
     let added = applied_forces(&scene.mesh, &scene.partition, rank, numbering, &applied, add);
@@ -59,11 +55,7 @@ fn mean_forces(problem: &Discretisation, session: &Session) -> Result<Field<2>, 
         let spread = bodies.spread(hold, &problem.mean_forces[hold]);
         let density = |points: &[Point; 6]| points.map(|x| bodies.moved(hold, &spread, x));
         // No triangle is turned inside out: the bodies have been measured.
-        _ = body_forces(&scene.mesh, triangle, numbering, density, &mut |node, force: Point| {
-            let sum = forces.at_mut(node);
-            sum[0] += force.x;
-            sum[1] += force.y;
-        });
+        _ = body_forces(&scene.mesh, triangle, numbering, density, &mut |node, force| forces.add_at(node, force));
     }
     forces.sum(session)
 }

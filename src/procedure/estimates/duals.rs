@@ -172,11 +172,7 @@ fn point_force(
         let shapes = shapes_at(problem, triangle, at);
         let moved: Point = shapes.iter().fold(Point::zeros(), |sum, (node, value)| sum + *value * u.point(*node));
         let direction = moved.try_normalize(0.0).unwrap_or(Point::y());
-        for (node, value) in shapes {
-            let sum = force.at_mut(node);
-            sum[0] += value * direction.x;
-            sum[1] += value * direction.y;
-        }
+        shapes.into_iter().for_each(|(node, value)| force.add_at(node, value * direction));
     }
     Ok(load(problem, &force.sum(session)?))
 }
