@@ -29,3 +29,9 @@ pub fn turn_right(v: Point) -> Point {
 pub fn cross(a: Point, b: Point) -> f64 {
     a.x * b.y - a.y * b.x
 }
+
+/// The smallest box around points: its lower left and its upper right corner. Around none it is inside out, without end.
+pub fn bounds(points: impl IntoIterator<Item = Point>) -> [Point; 2] {
+    let nothing = [Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)];
+    points.into_iter().fold(nothing, |[low, high], x| [low.inf(&x), high.sup(&x)])
+}

@@ -1,7 +1,7 @@
 //! Morton's space-filling curve: what follows each other on it lies together in the plane.
 
 use super::raw_mesh::{RawMesh, RawTriangle};
-use crate::geometry::Point;
+use crate::geometry::{Point, bounds};
 
 /// Meshes of more triangles are put in order: what passes over them finds neighbours in the caches then.
 const LARGE: usize = 10_000;
@@ -19,10 +19,7 @@ pub(super) struct MortonCurve {
 impl MortonCurve {
     /// The curve that fills the square around some points.
     pub fn around(points: &[Point]) -> Self {
-        let (mut low, mut high) = (Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY));
-        for x in points {
-            (low, high) = (low.inf(x), high.sup(x));
-        }
+        let [low, high] = bounds(points.iter().copied());
         Self { low, size: (high - low).max() }
     }
 

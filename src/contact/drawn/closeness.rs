@@ -1,6 +1,6 @@
 //! Boundaries of different bodies that lie close and face each other: contacts that a case may mean.
 
-use crate::geometry::{Disc, Point, overlapping_discs, turn_right};
+use crate::geometry::{Disc, Point, bounds, overlapping_discs, turn_right};
 use crate::mesh::{Boundary, MacroMesh, SurfacePart};
 use std::collections::{HashMap, HashSet};
 
@@ -133,9 +133,7 @@ impl CloseSide {
     }
 
     fn new(body: Option<usize>, edges: Vec<u32>, length: f64, sights: Vec<Sight>) -> Self {
-        let nothing = [Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)];
-        let wider = |[low, high]: [Point; 2], sight: &Sight| [low.inf(&sight.place), high.sup(&sight.place)];
-        let around = sights.iter().fold(nothing, wider);
+        let around = bounds(sights.iter().map(|sight| sight.place));
         let spacing = sights.iter().map(|sight| sight.spacing).fold(0.0, f64::max);
         Self { body, edges, length, sights, around, spacing, bow: 0.0 }
     }

@@ -1,6 +1,6 @@
 //! Triangles that overlap their own body.
 
-use crate::geometry::{Point, cross};
+use crate::geometry::{Point, bounds, cross};
 use crate::mesh::MeshError;
 use crate::mesh::macro_mesh::MacroMesh;
 
@@ -67,9 +67,7 @@ struct BoundaryStrip {
 
 impl BoundaryStrip {
     fn new(mesh: &MacroMesh, on_boundary: &[usize]) -> Self {
-        let [low, high] = mesh.vertices.iter().fold([Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)], {
-            |[low, high], x| [low.inf(x), high.sup(x)]
-        });
+        let [low, high] = bounds(mesh.vertices.iter().copied());
         let size = high - low;
         let count = mesh.triangles.len() as f64;
         // Roots first: the product of small sizes would be zero.
@@ -124,7 +122,7 @@ struct BoundaryGrids {
 
 impl BoundaryGrids {
     fn new(mesh: &MacroMesh, on_boundary: &[usize]) -> Self {
-        let low = mesh.vertices.iter().fold(Point::repeat(f64::INFINITY), |low, x| low.inf(x));
+        let [low, _] = bounds(mesh.vertices.iter().copied());
         // Triangles that follow each other are mostly of one level.
         let mut levels: Vec<i32> = (0..mesh.triangles.len()).map(|triangle| level(&mesh.corners(triangle))).collect();
         levels.dedup();

@@ -3,7 +3,7 @@
 use super::level::{AXES, LevelNode, LevelNodes};
 use super::tree::{Roots, Tree, WantedWidth};
 use crate::discretisation::Space;
-use crate::geometry::Point;
+use crate::geometry::{Point, bounds};
 use crate::mesh::MacroMesh;
 
 /// Width of the cells of the finest trees, in edges of the mesh: with 1.5 and 2 as many iterations, but dearer ones.
@@ -28,10 +28,7 @@ impl<'a> Grid<'a> {
     /// Root cells that fill the box around all bodies.
     pub fn new(mesh: &'a MacroMesh) -> Self {
         let lengths = edge_lengths(mesh);
-        let (mut low, mut high) = (Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY));
-        for x in &mesh.vertices {
-            (low, high) = (low.inf(x), high.sup(x));
-        }
+        let [low, high] = bounds(mesh.vertices.iter().copied());
         let usual = WIDTH * (lengths.iter().map(|length| length.ln()).sum::<f64>() / lengths.len() as f64).exp();
         let least = WIDTH * lengths.iter().copied().fold(f64::INFINITY, f64::min);
         let size = high - low;
