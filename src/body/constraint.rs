@@ -199,8 +199,7 @@ fn hold_rigidly<'a>(
 
 /// Holds the nodes on the axis of revolution there: a ring without a radius has none to gain.
 fn hold_on_axis(mesh: &MacroMesh, numbering: &Numbering, holds: &mut AllHolds) -> Result<(), SupportError> {
-    let intervals = numbering.level.intervals as u32;
-    let inner = mesh.edges_on_axis().flat_map(|edge| (0..=intervals).map(move |position| EdgeNode { edge, position }));
+    let inner = mesh.edges_on_axis().flat_map(|edge| EdgeNode::along(edge, numbering.level));
     let ends = (0..mesh.vertices.len() as u32).map(|vertex| (numbering.vertex(vertex), mesh.vertices[vertex as usize]));
     let of_ends = ends.filter(|(_, x)| x.x == 0.0);
     for (node, x) in inner.map(|node| (node.number(mesh, numbering), node.place(mesh, numbering))).chain(of_ends) {
@@ -223,9 +222,7 @@ pub(super) fn all_holds<'a>(
             let (_, known) = holds.entry(numbering.vertex(vertex)).or_insert((x, Vec::new()));
             collect_axes(support, x, known)?;
         }
-        let positions = 0..=numbering.level.intervals as u32;
-        for node in mesh.edges_on(&support.on).flat_map(|edge| positions.clone().map(move |position| EdgeNode { edge, position }))
-        {
+        for node in mesh.edges_on(&support.on).flat_map(|edge| EdgeNode::along(edge, numbering.level)) {
             let x = node.place(mesh, numbering);
             let (_, known) = holds.entry(node.number(mesh, numbering)).or_insert((x, Vec::new()));
             collect_axes(support, x, known)?;

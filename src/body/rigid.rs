@@ -82,11 +82,8 @@ impl RigidSet {
     /// Numbers and places of its nodes on a level, the same on every rank.
     pub fn places(&self, mesh: &MacroMesh, numbering: &Numbering) -> BTreeMap<usize, Point> {
         let mut places = BTreeMap::new();
-        for edge in self.edges(mesh) {
-            for position in 0..=numbering.level.intervals {
-                let node = EdgeNode { edge, position: position as u32 };
-                places.entry(node.number(mesh, numbering)).or_insert_with(|| node.place(mesh, numbering));
-            }
+        for node in self.edges(mesh).into_iter().flat_map(|edge| EdgeNode::along(edge, numbering.level)) {
+            places.entry(node.number(mesh, numbering)).or_insert_with(|| node.place(mesh, numbering));
         }
         places
     }

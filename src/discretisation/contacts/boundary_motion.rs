@@ -41,8 +41,7 @@ impl BoundaryMotion {
 
 /// Every node of the boundaries of all contacts, those between two edges twice.
 fn contact_nodes<'a>(scene: &'a Scene, space: &Space) -> impl Iterator<Item = EdgeNode> + use<'a> {
-    let mesh = &scene.mesh;
-    let n = space.numbering.level.intervals as u32;
+    let (mesh, level) = (&scene.mesh, space.numbering.level);
     let names = scene.pairs.iter().flat_map(|pair| &pair.between);
-    names.flat_map(|name| mesh.edges_of(name)).flat_map(move |&edge| (0..=n).map(move |position| EdgeNode { edge, position }))
+    names.flat_map(|name| mesh.edges_of(name)).flat_map(move |&edge| EdgeNode::along(edge, level))
 }

@@ -16,6 +16,11 @@ pub struct EdgeNode {
 }
 
 impl EdgeNode {
+    /// All nodes of a macro edge at a level, from its first vertex to its second.
+    pub fn along(edge: u32, level: Level) -> impl Iterator<Item = Self> {
+        (0..=level.intervals as u32).map(move |position| Self { edge, position })
+    }
+
     /// The two nodes of the next coarser level that it lies between, and the weights that make it of them; the same one
     /// twice where that level has it.
     pub fn parents(self, mesh: &MacroMesh, level: Level) -> [(Self, f64); 2] {

@@ -284,9 +284,7 @@ mod tests {
     fn nodes_on_edges_are_those_of_the_triangles_beside() {
         everywhere(|mesh, _, numbering, _| {
             let places = positions(mesh, numbering);
-            let n = numbering.level.intervals;
-            for (edge, position) in (0..mesh.edges.len() as u32).flat_map(|edge| (0..=n).map(move |p| (edge, p))) {
-                let node = EdgeNode { edge, position: position as u32 };
+            for node in (0..mesh.edges.len() as u32).flat_map(|edge| EdgeNode::along(edge, numbering.level)) {
                 let x = node.place(mesh, numbering);
                 assert!((places[&node.number(mesh, numbering)] - x).norm() < 1e-12);
             }
@@ -306,10 +304,7 @@ mod tests {
                 let weights = mesh.parent_weights(triangle, fine.level, (i, j));
                 assert!((weights[0] * a + weights[1] * b - linear(x)).abs() < 1e-12);
             }
-            for (edge, position) in
-                (0..mesh.edges.len() as u32).flat_map(|edge| (0..=fine.level.intervals).map(move |p| (edge, p)))
-            {
-                let node = EdgeNode { edge, position: position as u32 };
+            for node in (0..mesh.edges.len() as u32).flat_map(|edge| EdgeNode::along(edge, fine.level)) {
                 let parents = node.parents(mesh, fine.level);
                 let sum: f64 = parents.iter().map(|(parent, weight)| weight * linear(places[&parent.number(mesh, coarse)])).sum();
                 assert!((sum - linear(node.place(mesh, fine))).abs() < 1e-12);
