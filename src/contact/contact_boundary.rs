@@ -2,6 +2,7 @@
 
 use crate::element::Plane;
 use crate::geometry::{Curve, Point, gauss_points, turn_right};
+use std::ops::Range;
 
 /// What is left of a turn by less than this share is rounding: the boundary is closed.
 const WHOLE: f64 = 1e-9;
@@ -136,6 +137,15 @@ impl ContactBoundary {
     pub fn parameter_on(&self, k: usize, z: f64) -> f64 {
         let k = k % self.segments();
         self.knots[k] + z * (self.knots[k + 1] - self.knots[k])
+    }
+
+    /// Gauss points of some segments, `count` on each: segment, fraction of it (in the parameter) and arc length where one stands, and
+    /// the length that it stands for.
+    pub fn gauss_on(&self, segments: Range<usize>, count: usize) -> impl Iterator<Item = (usize, f64, f64, f64)> {
+        segments.flat_map(move |k| {
+            let [from, to] = self.segment_arcs(k);
+            gauss_points(count).iter().map(move |(z, weight)| (k, *z, from + z * (to - from), weight * (to - from)))
+        })
     }
 
     /// Whether it is a straight line by its kind.

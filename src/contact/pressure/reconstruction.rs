@@ -4,7 +4,6 @@ use crate::contact::contact_boundary::ContactBoundary;
 use crate::contact::multiplier::Multipliers;
 use crate::contact::pair::MultiplierSpace;
 use crate::contact::pressure::zones::Zone;
-use crate::geometry::gauss_points;
 
 /// A sample nearer to the one before than this share of its distance to the next says the same.
 const SAME: f64 = 0.02;
@@ -35,19 +34,14 @@ pub fn roughness(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: 
         samples = around(&samples, zone.length());
     }
     let (mut middle, mut inside, mut peak) = ([0.0; 2], [0.0; 2], f64::NEG_INFINITY);
-    for k in zone.segments.clone() {
-        let [from, to] = boundary.segment_arcs(k);
-        let length = to - from;
-        for (z, weight) in gauss_points(5) {
-            let arc = from + z * length;
-            let smooth = interpolate(&samples, arc);
-            peak = peak.max(smooth);
-            let here = multipliers.value(lambda, k, *z);
-            for (sums, counts) in [(&mut middle, zone.has_in_its_middle(arc)), (&mut inside, zone.has_inside(arc))] {
-                if counts {
-                    sums[0] += weight * length * (here - smooth).powi(2);
-                    sums[1] += weight * length * here * here;
-                }
+    for (k, z, arc, length) in boundary.gauss_on(zone.segments.clone(), 5) {
+        let smooth = interpolate(&samples, arc);
+        peak = peak.max(smooth);
+        let here = multipliers.value(lambda, k, z);
+        for (sums, counts) in [(&mut middle, zone.has_in_its_middle(arc)), (&mut inside, zone.has_inside(arc))] {
+            if counts {
+                sums[0] += length * (here - smooth).powi(2);
+                sums[1] += length * here * here;
             }
         }
     }

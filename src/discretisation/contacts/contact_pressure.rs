@@ -113,14 +113,12 @@ impl<'a> ContactPressure<'a> {
         let boundary = &self.contact.boundary;
         let error = |zone: &Zone| {
             let mut sums = [0.0; 2];
-            for k in zone.segments.clone() {
-                let ([from, _], length) = (boundary.segment_arcs(k), boundary.segment_length(k));
-                for (z, weight) in gauss_points(8).iter().filter(|(z, _)| zone.has_in_its_middle(from + z * length)) {
-                    let x = boundary.point(boundary.parameter_on(k, *z));
-                    let wanted = exact.value(&[x.x, x.y]);
-                    sums[0] += weight * length * (self.value(k, *z) - wanted).powi(2);
-                    sums[1] += weight * length * wanted * wanted;
-                }
+            let points = boundary.gauss_on(zone.segments.clone(), 8);
+            for (k, z, _, length) in points.filter(|(_, _, arc, _)| zone.has_in_its_middle(*arc)) {
+                let x = boundary.point(boundary.parameter_on(k, z));
+                let wanted = exact.value(&[x.x, x.y]);
+                sums[0] += length * (self.value(k, z) - wanted).powi(2);
+                sums[1] += length * wanted * wanted;
             }
             (sums[0] / sums[1]).sqrt()
         };

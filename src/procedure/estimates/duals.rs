@@ -8,7 +8,7 @@
 use crate::accuracy::{Goal, ProbePoint, Quantity};
 use crate::contact::Zone;
 use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, SystemError, load};
-use crate::geometry::{Point, gauss_points};
+use crate::geometry::Point;
 use crate::mesh::Cells;
 use crate::petsc::Session;
 use crate::procedure::coarse_solution::{CoarseSolution, coarse_values};
@@ -73,22 +73,16 @@ impl Duals<'_> {
     /// error of λ is largest where λ is worst.
     fn pressure_weights(&self, at: usize, pressure: &ContactPressure) -> Vec<f64> {
         let Some(coarse) = self.coarse else { return force_weights(pressure) };
-        let contact = pressure.contact;
-        let (knots, arcs) = (contact.boundary.knots(), contact.boundary.arcs());
-        let zones = pressure.zones();
+        let (boundary, zones) = (&pressure.contact.boundary, pressure.zones());
         let mut weights = vec![0.0; pressure.values.len()];
-        for k in 0..contact.boundary.segments() {
-            for (z, weight) in gauss_points(3) {
-                let arc = arcs[k] + z * (arcs[k + 1] - arcs[k]);
-                if !zones.iter().any(|zone| zone.has_in_its_middle(arc)) {
-                    continue;
-                }
-                let x = contact.boundary.point(knots[k] + z * (knots[k + 1] - knots[k]));
-                let error = pressure.value(k, *z) - coarse.pressure(at).at_foot(x);
-                let (rows, shapes) = contact.multipliers.on_segment(k, *z);
-                for (row, shape) in rows.into_iter().zip(shapes) {
-                    weights[row] += weight * (arcs[k + 1] - arcs[k]) * error * shape;
-                }
+        let is_in_a_middle = |arc: f64| zones.iter().any(|zone| zone.has_in_its_middle(arc));
+        let points = boundary.gauss_on(0..boundary.segments(), 3);
+        for (k, z, _, length) in points.filter(|(_, _, arc, _)| is_in_a_middle(*arc)) {
+            let x = boundary.point(boundary.parameter_on(k, z));
+            let error = pressure.value(k, z) - coarse.pressure(at).at_foot(x);
+            let (rows, shapes) = pressure.contact.multipliers.on_segment(k, z);
+            for (row, shape) in rows.into_iter().zip(shapes) {
+                weights[row] += length * error * shape;
             }
         }
         weights

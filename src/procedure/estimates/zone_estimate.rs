@@ -13,7 +13,7 @@
 
 use crate::contact::{MultiplierSpace, Roughness, Zone};
 use crate::discretisation::Contact;
-use crate::geometry::{Point, gauss_points};
+use crate::geometry::Point;
 use crate::recovery::ZoneErrors;
 
 /// Largest factor by which squares of errors of λ are taken to fall.
@@ -71,29 +71,24 @@ pub struct ZoneEstimate {
 impl ZoneDifference {
     /// Compares λ of a contact on a zone with what it was `before`.
     pub(crate) fn new(contact: &Contact, lambda: &[f64], zone: &Zone, before: impl Fn(Point) -> f64) -> Self {
-        let (knots, arcs) = (contact.boundary.knots(), contact.boundary.arcs());
+        let boundary = &contact.boundary;
         let (mut squares, mut force, mut peak) = ([[0.0; 2]; 2], 0.0, f64::NEG_INFINITY);
-        for k in 0..contact.boundary.segments() {
-            let (length, ends) = (arcs[k + 1] - arcs[k], [knots[k], knots[k + 1]]);
-            for (z, weight) in gauss_points(3) {
-                let arc = arcs[k] + z * length;
-                let t = ends[0] + z * (ends[1] - ends[0]);
-                let there = before(contact.boundary.point(t));
-                if zone.reaches(arc) {
-                    force += weight * length * contact.boundary.width(t) * there;
-                    peak = there.max(peak);
-                }
-                let here = contact.multipliers.value(lambda, k, *z);
-                let counts = [zone.has_in_its_middle(arc), zone.has_inside(arc)];
-                for (sums, _) in squares.iter_mut().zip(counts).filter(|(_, counts)| *counts) {
-                    sums[0] += weight * length * (here - there).powi(2);
-                    sums[1] += weight * length * here * here;
-                }
+        for (k, z, arc, length) in boundary.gauss_on(0..boundary.segments(), 3) {
+            let t = boundary.parameter_on(k, z);
+            let there = before(boundary.point(t));
+            if zone.reaches(arc) {
+                force += length * boundary.width(t) * there;
+                peak = there.max(peak);
+            }
+            let here = contact.multipliers.value(lambda, k, z);
+            let counts = [zone.has_in_its_middle(arc), zone.has_inside(arc)];
+            for (sums, _) in squares.iter_mut().zip(counts).filter(|(_, counts)| *counts) {
+                sums[0] += length * (here - there).powi(2);
+                sums[1] += length * here * here;
             }
         }
         let [pressure, inside] = squares.map(|[difference, whole]| (difference / whole).sqrt());
         let [now, top] = [zone.force(&contact.multipliers, lambda), zone.peak(&contact.multipliers, lambda)];
-        let boundary = &contact.boundary;
         Self {
             middle: boundary.point(boundary.parameter_at(0.5 * (zone.arcs[0] + zone.arcs[1]))),
             length: zone.length(),
