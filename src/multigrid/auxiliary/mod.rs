@@ -39,11 +39,11 @@ use grid::Grid;
 use std::rc::Rc;
 use tree::Tree;
 
-/// Share of nodes that the next level must do without.
+/// Share of nodes that the next level must do without, if a further one is to follow it.
 const LEAST_GAIN: f64 = 0.3;
 
-/// Steps from the coarsest space of a problem down to a small level, the lowest first; none if that space is small. On `ranks`
-/// ranks, alike on each of them.
+/// Steps from the coarsest space of a problem down to a level that is small, or, of very many bodies, cannot be much smaller, the lowest
+/// first; none if that space is small. One rank has all of the lowest level. On `ranks` ranks, alike on each of them.
 pub fn coarsenings(problem: &Discretisation, ranks: usize) -> Vec<Rc<Coarsening>> {
     let space = &problem.spaces[0];
     let mut coarsenings: Vec<Rc<Coarsening>> = Vec::new();
@@ -54,16 +54,14 @@ pub fn coarsenings(problem: &Discretisation, ranks: usize) -> Vec<Rc<Coarsening>
     let (mesh, mut trees) = (grid.nodes(space, ranks), grid.trees());
     loop {
         let nodes = coarsenings.last().map_or(&mesh, |step| &step.coarse);
-        if 2 * nodes.all.len() <= SMALL {
-            break;
-        }
         let mut step = Coarsening::new(nodes, &trees);
         let count = step.coarse.all.len();
-        if count as f64 > (1.0 - LEAST_GAIN) * nodes.all.len() as f64 {
+        let is_lowest = 2 * count <= SMALL || count as f64 > (1.0 - LEAST_GAIN) * nodes.all.len() as f64;
+        step.coarse.bring_together(if is_lowest { ranks.next_power_of_two() } else { ranks_in_group(2 * count, ranks) });
+        coarsenings.push(Rc::new(step));
+        if is_lowest {
             break;
         }
-        step.coarse.bring_together(ranks_in_group(2 * count, ranks));
-        coarsenings.push(Rc::new(step));
         let coarser: Vec<Option<Tree>> = trees.iter().map(Tree::coarser).collect();
         trees = coarser.into_iter().zip(trees).map(|(coarser, tree)| coarser.unwrap_or(tree)).collect();
     }

@@ -1,5 +1,5 @@
 //! The multigrid F-cycle of mezha's own: it works on even macro triangles and stored rows directly. The coarsest level has
-//! a factor, one of PETSc's where not even an auxiliary level is small.
+//! a factor on one rank.
 //!
 //! Levels with few unknowns have been brought together on fewer ranks, the small ones on one: from the first of these downwards
 //! nothing is sent, and the other ranks wait, unless there are rigid motions to be found, or steps of CG have sums of all ranks. Where
@@ -11,7 +11,6 @@ mod conjugate_steps;
 mod level;
 mod sparse_factor;
 
-use crate::discretisation::SMALL;
 use crate::multigrid::interpolation::Interpolation;
 use crate::multigrid::stiffness::{LatticeOperator, SweepHalves};
 use crate::petsc::{Action, Result, Session, Vector};
@@ -47,7 +46,7 @@ impl Cycle {
         session: &Session,
     ) -> Result<Self> {
         let lowest = levels.next().expect("a coarsest level");
-        let coarsest = Coarsest::new(lowest, 2 * interpolations[0].coarse_nodes <= SMALL, session)?;
+        let coarsest = Coarsest::new(lowest, session)?;
         let level = |(rows, step): (&Rc<LatticeOperator>, &Interpolation)| {
             CycleLevel::new(rows.clone(), step.nodes.clone(), steps, session)
         };
@@ -66,10 +65,10 @@ impl Cycle {
     }
 
     /// Takes over unknowns beside the displacements, for the present values of the stiffness. **Collective**
-    pub fn set_border(&mut self, border: Border, session: &Session) -> Result<()> {
+    pub fn set_border(&mut self, border: Border, session: &Session) {
         if border.columns.is_empty() {
             self.border = None;
-            return Ok(());
+            return;
         }
         let top = self.levels.len() - 1;
         let (mut lower, mut below, mut responses) = (vec![Vec::new(); top], Vec::new(), Vec::new());
@@ -81,11 +80,10 @@ impl Cycle {
             self.r = forces;
             lower.iter_mut().zip(&self.levels).for_each(|(columns, level)| columns.push(column_of(level.b.as_flattened())));
             below.push(column_of(self.coarsest.b.as_flattened()));
-            self.coarsest.solve()?;
+            self.coarsest.solve();
             responses.push(self.coarsest.x.as_flattened().to_vec());
         }
         self.border = Some(LevelBorder::new(border, lower, below, responses, session));
-        Ok(())
     }
 
     /// Restricts forces to all levels below the finest one. **Collective**
@@ -103,19 +101,19 @@ impl Cycle {
 
     /// `x` of `[x; p] = M⁻¹ [b; g]` for the unknowns of this rank, with the unknowns `p` of a border if there is one; without the
     /// border if `g` is empty. `b` is not what it was then. **Collective**
-    pub fn apply(&mut self, b: &mut [f64], g: &[f64], x: &mut [f64]) -> Result<()> {
+    pub fn apply(&mut self, b: &mut [f64], g: &[f64], x: &mut [f64]) {
         let (b, x) = (b.as_chunks_mut().0, x.as_chunks_mut().0);
         self.restrict(b);
         let Self { coarsest, levels, border, r, .. } = self;
         let top = levels.len() - 1;
         let mut descent = Descent { coarsest, border: border.as_ref().filter(|_| !g.is_empty()), r };
-        let mut p = descent.solve_below(g)?;
+        let mut p = descent.solve_below(g);
         for l in 0..top {
             let (mut b, mut x) = (take(&mut levels[l].b), take(&mut levels[l].x));
-            descent.begin(&mut levels[..=l], SweepHalves::Forward, (g, &mut p), &mut b, &mut x)?;
+            descent.begin(&mut levels[..=l], SweepHalves::Forward, (g, &mut p), &mut b, &mut x);
             (levels[l].b, levels[l].x) = (b, x);
         }
-        descent.begin(levels, SweepHalves::Both, (g, &mut p), b, x)
+        descent.begin(levels, SweepHalves::Both, (g, &mut p), b, x);
     }
 }
 
@@ -128,9 +126,9 @@ struct Descent<'a> {
 
 impl Descent<'_> {
     /// Solves on the coarsest level, with a right-hand side of the border; what was found of that. **Collective**
-    fn solve_below(&mut self, g: &[f64]) -> Result<Vec<f64>> {
-        self.coarsest.solve()?;
-        Ok(self.border.map_or_else(Vec::new, |border| border.solve(g, self.coarsest.x.as_flattened_mut())))
+    fn solve_below(&mut self, g: &[f64]) -> Vec<f64> {
+        self.coarsest.solve();
+        self.border.map_or_else(Vec::new, |border| border.solve(g, self.coarsest.x.as_flattened_mut()))
     }
 
     /// A V-cycle from what the next coarser level has found. **Collective**
@@ -141,7 +139,7 @@ impl Descent<'_> {
         (g, p): (&[f64], &mut [f64]),
         b: &mut [[f64; 2]],
         x: &mut [[f64; 2]],
-    ) -> Result<()> {
+    ) {
         let (level, below) = levels.split_last_mut().expect("a level");
         level.begin(below.last().map_or(&self.coarsest.x, |below| &below.x), x);
         if let Some(border) = self.border {
@@ -152,19 +150,18 @@ impl Descent<'_> {
         if let Some(border) = self.border {
             border.subtract_corner(p, &mut left);
         }
-        let change = self.correct(levels, &left, b, x)?;
+        let change = self.correct(levels, &left, b, x);
         p.iter_mut().zip(change).for_each(|(p, change)| *p += change);
-        Ok(())
     }
 
     /// What follows the first sweep of a V-cycle on the last of these levels and those below; what is found of the border.
     /// **Collective**
-    fn correct(&mut self, levels: &mut [CycleLevel], g: &[f64], b: &mut [[f64; 2]], x: &mut [[f64; 2]]) -> Result<Vec<f64>> {
+    fn correct(&mut self, levels: &mut [CycleLevel], g: &[f64], b: &mut [[f64; 2]], x: &mut [[f64; 2]]) -> Vec<f64> {
         let (level, below) = levels.split_last_mut().expect("a level");
         let left = self.border.map_or_else(Vec::new, |border| border.left(below.len(), g, x));
         let p = if below.is_empty() {
             level.restrict_residual(b, x, self.r, &mut self.coarsest.b);
-            let p = self.solve_below(&left)?;
+            let p = self.solve_below(&left);
             level.correct(&self.coarsest.x, x);
             p
         } else {
@@ -172,7 +169,7 @@ impl Descent<'_> {
             level.restrict_residual(b, x, self.r, &mut below[last].b);
             let (mut next, mut correction) = (take(&mut below[last].b), take(&mut below[last].x));
             below[last].relax_from_zero(&next, &mut correction);
-            let p = self.correct(below, &left, &mut next, &mut correction)?;
+            let p = self.correct(below, &left, &mut next, &mut correction);
             (below[last].b, below[last].x) = (next, correction);
             level.correct(&below[last].x, x);
             p
@@ -181,13 +178,14 @@ impl Descent<'_> {
             border.subtract(below.len(), &p, b);
         }
         level.relax(SweepHalves::Both, b, x);
-        Ok(p)
+        p
     }
 }
 
 /// As PETSc's preconditioner.
 impl Action for Rc<RefCell<Cycle>> {
     fn apply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
-        self.borrow_mut().apply(&mut x.values().to_vec(), &[], &mut y.values_mut())
+        self.borrow_mut().apply(&mut x.values().to_vec(), &[], &mut y.values_mut());
+        Ok(())
     }
 }

@@ -49,10 +49,9 @@ impl BlockTriangle {
     }
 
     /// Tells the cycle of unknowns of the border, those of before no longer. **Collective**
-    pub fn tell(&self, border: &BorderBlocks, unknowns: Vec<BorderUnknown>) -> Result<()> {
-        self.cycle.borrow_mut().set_border(border.for_cycle(&unknowns), &self.session)?;
+    pub fn tell(&self, border: &BorderBlocks, unknowns: Vec<BorderUnknown>) {
+        self.cycle.borrow_mut().set_border(border.for_cycle(&unknowns), &self.session);
         self.told.replace(unknowns);
-        Ok(())
     }
 }
 
@@ -68,6 +67,7 @@ impl Action for Rc<BlockTriangle> {
         let told = self.told.borrow();
         let border = self.border.as_ref().filter(|_| !told.is_empty());
         let g = border.map_or_else(Vec::new, |border| border.borrow().balances(&told, minus));
-        self.cycle.borrow_mut().apply(force, &g, u)
+        self.cycle.borrow_mut().apply(force, &g, u);
+        Ok(())
     }
 }

@@ -101,7 +101,7 @@ impl Bordered {
             Some(triangle) => {
                 let inside = border.resisted(RESISTED_INSIDE, usize::MAX);
                 let is_inside = (FEW + 1..=MOST_INSIDE).contains(&inside.len());
-                triangle.tell(&border, if is_inside { inside } else { Vec::new() })?;
+                triangle.tell(&border, if is_inside { inside } else { Vec::new() });
                 if is_inside { Vec::new() } else { border.resisted(RESISTED, MOST_HELD) }
             }
             None => border.resisted(RESISTED, MOST_HELD),

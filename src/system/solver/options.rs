@@ -20,10 +20,6 @@ pub(super) const FIELD_SPLIT: Options = &[
     // The cycle takes the place of `none` once the block solvers exist.
     ("-fieldsplit_u_pc_type", "none"),
     ("-fieldsplit_lambda_ksp_type", "preonly"),
-    // So many bodies that not even auxiliary levels are small: their coarsest level is factorised by all ranks together.
-    ("-fieldsplit_u_coarsest_ksp_type", "preonly"),
-    ("-fieldsplit_u_coarsest_pc_type", "cholesky"),
-    ("-fieldsplit_u_coarsest_pc_factor_mat_solver_type", "mumps"),
 ];
 
 /// What the user has chosen of a ladder.
