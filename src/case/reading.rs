@@ -130,8 +130,7 @@ impl Case {
     /// Reads every section, then checks what lies between them. None if there is no mesh to speak of; of what else is missing or
     /// bad the log knows.
     fn from_section(root: &Section, file: &Path) -> Option<Self> {
-        let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
-        let title = root.or_default(TITLE);
+        let (folder, title) = (file.parent().unwrap_or(Path::new("")).to_path_buf(), root.or_default(TITLE));
         let mesh = read_mesh(root, &folder);
         let (plane, gravity) = (root.or_default(PLANE), read_gravity(root));
         let bodies = root.named("body", |section| body::read_body(section, plane, gravity));
@@ -145,9 +144,8 @@ impl Case {
         let contacts = root.named("contact", |section| read_contact(section, root, &mut unions));
         let (solver, output) = (read_solver(root), output::read_output(root, plane));
         let probes = root.named("probe", |section| output::read_probe(section, root));
-        let exact = exact::read_exact(root, plane);
+        let (exact, factors) = (exact::read_exact(root, plane), root.named("steps", steps::read_factor));
         let accuracy = accuracy::read_accuracy(root, &contacts, &probes);
-        let factors = root.named("steps", steps::read_factor);
         body::check_bodies(root);
         body::check_parts(&bodies, root);
         check_gravity(gravity, root);

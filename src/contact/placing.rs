@@ -298,8 +298,7 @@ fn extent(mut ranges: Vec<[f64; 2]>, period: Option<f64>) -> [f64; 2] {
         *range = range.map(|t| t - turns);
     }
     ranges.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let mut widest = [0.0; 2];
-    let mut reached = f64::NEG_INFINITY;
+    let (mut widest, mut reached) = ([0.0; 2], f64::NEG_INFINITY);
     let again = ranges.first().map(|range| range.map(|t| t + period));
     for [from, to] in ranges.iter().copied().chain(again) {
         if from - reached > widest[1] - widest[0] && reached.is_finite() {

@@ -83,8 +83,7 @@ impl HeldBodies {
 
     /// Finds `N` of each body, and what follows from it. **Collective**
     fn weigh(&mut self, scene: &Scene, session: &Session) {
-        let means = &scene.means;
-        let mut sums = vec![[0.0; 9]; means.len()];
+        let mut sums = vec![[0.0; 9]; scene.means.len()];
         for &(node, hold, x) in &self.nodes {
             for (i, a) in UNIT_MOTIONS.iter().enumerate() {
                 let moment = self.moment(hold, a, node);
@@ -92,7 +91,7 @@ impl HeldBodies {
             }
         }
         session.sum(sums.as_flattened_mut());
-        for (hold, sums) in means.iter().zip(sums) {
+        for (hold, sums) in scene.means.iter().zip(sums) {
             let (count, all) = (hold.held.len(), Matrix3::from_row_slice(&sums));
             let mode = |i: usize| Vector3::from(hold.held[i].mode);
             let gram = DMatrix::from_fn(count, count, |i, j| mode(i).dot(&(all * mode(j))));

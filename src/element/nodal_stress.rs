@@ -24,8 +24,7 @@ pub fn nodal_stresses<const N: usize>(
 ) -> Result<[([f64; 4], f64); N], BadJacobian> {
     if heat.is_none() && law.plane != Plane::Revolution {
         if N == 3 {
-            let (stress, (_, determinant)) = (heated_stress(nodes, u, NODES[0], law, None)?, jacobian(nodes, NODES[0])?);
-            return Ok([(stress, determinant); N]);
+            return Ok([(heated_stress(nodes, u, NODES[0], law, None)?, jacobian(nodes, NODES[0])?.1); N]);
         }
         if is_straight(nodes) {
             return straight(nodes, u, law);

@@ -46,12 +46,10 @@ impl MacroMesh {
                 "lies on two pieces of body \"{}\", which nothing tells apart; take a point of one of them",
                 body(first)
             )),
-            [first, .., last] => Err(format!(
-                "lies on body \"{}\" and on body \"{}\"; write body = \"{}\" beside it, or the other one",
-                body(first),
-                body(last),
-                body(first)
-            )),
+            [first, .., last] => {
+                let (one, other) = (body(first), body(last));
+                Err(format!("lies on body \"{one}\" and on body \"{other}\"; write body = \"{one}\" beside it, or the other one"))
+            }
         }
     }
 

@@ -103,8 +103,9 @@ fn exchange<T: Datum>(
             requests.add(world.process_at_rank(*rank).immediate_receive_into(scope, part));
             rest = next;
         }
-        for (rank, range) in to {
-            requests.add(world.process_at_rank(*rank).immediate_send(scope, &sent[range.clone()]));
+        let send = |(rank, range): &(i32, Range<usize>)| world.process_at_rank(*rank).immediate_send(scope, &sent[range.clone()]);
+        for of_rank in to {
+            requests.add(send(of_rank));
         }
         meanwhile();
         requests.wait_all(&mut Vec::new());

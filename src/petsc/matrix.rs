@@ -34,10 +34,8 @@ impl Matrix {
         diagonal: &[Index],
         off_diagonal: &[Index],
     ) -> Result<Self> {
-        assert!(
-            [diagonal.len(), off_diagonal.len()] == [rows / block; 2] && rows.is_multiple_of(block),
-            "one count for each block row"
-        );
+        let has_rows = |counts: &[Index]| block * counts.len() == rows;
+        assert!(has_rows(diagonal) && has_rows(off_diagonal), "one count for each block row");
         let mut raw = ptr::null_mut();
         petsc!(MatCreate(session.raw(), &mut raw))?;
         let matrix = Self { raw, session: session.clone(), block };

@@ -18,15 +18,12 @@ impl Session {
     pub fn add_to_owners<const K: usize>(&self, own: &Range<usize>, sums: &mut [[f64; K]], mut others: Vec<(usize, [f64; K])>) {
         others.sort_by_key(|(block, _)| *block);
         let mut end = 0;
-        let counts: Vec<usize> = self
-            .gather_counts(own.len())
-            .into_iter()
-            .map(|count| {
-                let begin = others.partition_point(|(block, _)| *block < end);
-                end += count;
-                others.partition_point(|(block, _)| *block < end) - begin
-            })
-            .collect();
+        let mut of_rank = |count: usize| {
+            let begin = others.partition_point(|(block, _)| *block < end);
+            end += count;
+            others.partition_point(|(block, _)| *block < end) - begin
+        };
+        let counts: Vec<usize> = self.gather_counts(own.len()).into_iter().map(&mut of_rank).collect();
         let blocks: Vec<u64> = others.iter().map(|(block, _)| *block as u64).collect();
         let values: Vec<f64> = others.iter().flat_map(|(_, values)| *values).collect();
         let arriving = self.counts_to_each(&counts);

@@ -1,6 +1,6 @@
 //! Forces and moments of contact on either body.
 
-use crate::contact::{Configuration, Side};
+use crate::contact::Configuration;
 use crate::discretisation::{Contact, Discretisation, Solution};
 use crate::geometry::{Point, cross};
 use crate::mesh::EdgeNode;
@@ -56,8 +56,7 @@ fn contact_force(problem: &Discretisation, contact: &Contact, solution: &Solutio
         let lambda = solution.multipliers[i];
         sum.force += lambda * contact.multipliers.integral(i - contact.first);
         for coupled in &problem.coupling.rows[i] {
-            let k = if coupled.side == Side::First { 0 } else { 1 };
-            let force = -lambda * coupled.value;
+            let (k, force) = (coupled.side as usize, -lambda * coupled.value);
             sum.resultants[k] += mesh.plane.resultant(force);
             sum.moments[k] += cross(place(coupled.node) + shifts[k], force);
         }

@@ -85,9 +85,8 @@ fn whole_bodies(mesh: &MacroMesh, totals: &[BodyIntegrals]) -> Vec<Deformation> 
     let mut found: Vec<Deformation> = totals.iter().map(whole).collect();
     if mesh.plane == Plane::Revolution {
         // A body around the axis cannot turn; the section of a ring can.
-        for triangle in
-            mesh.triangles.iter().filter(|triangle| triangle.vertices.iter().any(|&v| mesh.vertices[v as usize].x == 0.0))
-        {
+        let is_on_axis = |vertex: &u32| mesh.vertices[*vertex as usize].x == 0.0;
+        for triangle in mesh.triangles.iter().filter(|triangle| triangle.vertices.iter().any(is_on_axis)) {
             let of_body = &mut found[triangle.body as usize];
             (of_body.rotation, of_body.growth) = (0.0, 0.0);
         }

@@ -304,10 +304,10 @@ fn moved_forces(
     places: &BTreeMap<usize, Point>,
     session: &Session,
 ) -> Result<Field<2>, SystemError> {
-    if let RigidNodes::Body(_) = set.nodes {
-        return Ok(Field::zeros(&problem.scene, problem.finest(), session));
-    }
     let space = problem.finest();
+    if let RigidNodes::Body(_) = set.nodes {
+        return Ok(Field::zeros(&problem.scene, space, session));
+    }
     let mut moved = vec![0.0; space.local_unknowns()];
     for (&node, &x) in places.iter().filter(|(node, _)| space.own.contains(node)) {
         let (at, u) = (2 * (node - space.own.start), space.to_frame(node, set.mode(k, x)));

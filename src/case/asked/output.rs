@@ -77,6 +77,11 @@ pub struct Probe {
     pub body: String,
 }
 
+/// What is said of stresses whose names mean something else, or nothing, in the plane of the case.
+const NOT_OF_REVOLUTION: &str =
+    "\"sigma_zz\" may mean two stresses here: write \"sigma_yy\" for that along the axis, \"sigma_tt\" for that around it";
+const OF_REVOLUTION: &str = "\"sigma_rr\" and \"sigma_tt\" are for bodies of revolution: write \"sigma_xx\", and \"sigma_zz\" for the stress across the plane";
+
 /// `[output]`. Stresses have names of their own in bodies of revolution, where zz is the axis to some and the hoop to others.
 pub fn read_output(root: &Section, plane: Plane) -> Output {
     let section = root.table("output");
@@ -87,15 +92,7 @@ pub fn read_output(root: &Section, plane: Plane) -> Output {
         _ => false,
     };
     if output.figures.iter().any(is_for_others) {
-        let words = match plane {
-            Plane::Revolution => {
-                "\"sigma_zz\" may mean two stresses here: write \"sigma_yy\" for that along the axis, \"sigma_tt\" for that around it"
-            }
-            _ => {
-                "\"sigma_rr\" and \"sigma_tt\" are for bodies of revolution: write \"sigma_xx\", and \"sigma_zz\" for the stress across the plane"
-            }
-        };
-        section.problem(&["figures"], words.into());
+        section.problem(&["figures"], if plane == Plane::Revolution { NOT_OF_REVOLUTION } else { OF_REVOLUTION }.into());
     }
     output
 }

@@ -190,10 +190,8 @@ impl TableForm {
             _ => None,
         });
         let others = || table.keys().filter(|key| *key != name).take(MOST_TOLD).cloned().collect::<Vec<_>>().join(", ");
-        Some(match wanted {
-            Some(wanted) => format!("goes with {wanted} only, which is not here"),
-            None => format!("does not go with what stands beside it: {}", others()),
-        })
+        let none = || format!("does not go with what stands beside it: {}", others());
+        Some(wanted.map_or_else(none, |wanted| format!("goes with {wanted} only, which is not here")))
     }
 }
 

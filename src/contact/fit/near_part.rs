@@ -123,12 +123,9 @@ pub fn only_near_part<'a>(
     if touching.len() == 1 {
         return Ok(Some((stretch, *part)));
     }
-    Err(format!(
-        "\"{}\" {} touch \"{}\"; give each a name and a contact of its own, or tell the curve of all by a [geometry]",
-        pair.between[k],
-        what_splits(&sides[k], &touching),
-        pair.between[1 - k]
-    ))
+    let ([own, other], splits) = ([k, 1 - k].map(|k| &pair.between[k]), what_splits(&sides[k], &touching));
+    let remedy = "give each a name and a contact of its own, or tell the curve of all by a [geometry]";
+    Err(format!("\"{own}\" {splits} touch \"{other}\"; {remedy}"))
 }
 
 /// Why the stretches of a boundary that touch are several, in words between its name and "touch".

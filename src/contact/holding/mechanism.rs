@@ -251,8 +251,7 @@ impl<'a> Holding<'a> {
     fn softest(&self, choice: &NormalChoice, without: Option<usize>) -> Option<Mechanism> {
         let all: Vec<&Condition> = self.chosen(choice, without).flat_map(|conditions| conditions.all).collect();
         if all.is_empty() {
-            let shift = Point::new(1.0, 0.0);
-            return Some(Mechanism { piece: 0, motion: "move in every direction".into(), moves: (shift, 0.0) });
+            return Some(Mechanism { piece: 0, motion: "move in every direction".into(), moves: (Point::x(), 0.0) });
         }
         let unit = |axis: usize| DVector::from_fn(3 * self.pieces.len(), |i, _| if i == axis { 1.0 } else { 0.0 });
         if let Some(axis) = loose_axis(self.pieces.len(), &all) {

@@ -161,10 +161,7 @@ impl Parser<'_> {
             return Err(self.error_here("nested too deeply; simplify the formula"));
         }
         let first = self.program.len() - taken;
-        let number = |instruction: &Instruction| match instruction {
-            Instruction::Number(value) => Some([*value]),
-            _ => None,
-        };
+        let number = |one: &Instruction| if let Instruction::Number(value) = one { Some([*value]) } else { None };
         let operands: Vec<_> = self.program[first..].iter().filter_map(number).collect();
         if taken > 0 && operands.len() == taken {
             let [value] = instruction.compute(&operands, |_| unreachable!("an instruction on numbers has no variable"));

@@ -21,9 +21,8 @@ impl Spline {
         assert!(samples.len() > 1 && spans > 0, "a fit needs samples and spans");
         let first = samples.iter().map(|sample| sample.0).fold(f64::INFINITY, f64::min);
         let last = samples.iter().map(|sample| sample.0).fold(f64::NEG_INFINITY, f64::max);
-        let width = (last - first) / spans as f64;
         // The fit is one to the difference from the chord, so that straight data stay straight.
-        let chord = chord(samples);
+        let (width, chord) = ((last - first) / spans as f64, chord(samples));
         let mut equations = NormalEquations::new(spans + 3);
         for &(t, point, weight) in samples {
             let k = (((t - first) / width) as usize).min(spans - 1);

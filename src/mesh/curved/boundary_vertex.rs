@@ -33,8 +33,7 @@ impl MacroMesh {
             (&[before], &[behind]) => {
                 let [back, on] = [before, behind].map(|edge| self.direction_from(edge, vertex));
                 let angle = cross(on, back).atan2(on.dot(&back)).rem_euclid(TAU);
-                let angle = if angle < SLIT { TAU } else { angle };
-                Some(BoundaryVertex { vertex, edges: [before, behind], angle })
+                Some(BoundaryVertex { vertex, edges: [before, behind], angle: if angle < SLIT { TAU } else { angle } })
             }
             _ => None,
         };

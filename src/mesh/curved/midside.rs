@@ -146,8 +146,7 @@ impl<'a> Neighbours<'a> {
 /// Sides in rows that go on smoothly, those rows that are not straight.
 fn chains(bows: &[Bow]) -> Vec<Vec<Bow>> {
     let neighbours = Neighbours::new(bows);
-    let mut is_left = vec![true; bows.len()];
-    let mut chains = Vec::new();
+    let (mut is_left, mut chains) = (vec![true; bows.len()], Vec::new());
     for start in 0..bows.len() {
         if !std::mem::take(&mut is_left[start]) {
             continue;

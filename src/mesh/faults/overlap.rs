@@ -24,11 +24,10 @@ impl MacroMesh {
             let alike = |other: &usize| *other != triangle && self.triangles[*other].body == self.triangles[triangle].body;
             let corners = self.corners(triangle);
             if grids.near(&corners).filter(alike).any(|other| overlap(corners, self.corners(other))) {
-                let [a, b, c] = corners;
-                let x = (a + b + c) / 3.0;
+                let (x, body) = (corners.iter().sum::<Point>() / 3.0, &self.bodies[self.triangles[triangle].body as usize]);
                 return Err(self.unusable(format!(
-                    "triangles of body \"{}\" overlap near ({}, {}): the same place would count twice; mesh the scene again",
-                    self.bodies[self.triangles[triangle].body as usize], x.x, x.y
+                    "triangles of body \"{body}\" overlap near ({}, {}): the same place would count twice; mesh the scene again",
+                    x.x, x.y
                 )));
             }
         }

@@ -126,8 +126,7 @@ impl MacroMesh {
             angles.sort_by(f64::total_cmp);
             let next = |k: usize| angles.get(k + 1).copied().unwrap_or(angles[0] + TAU);
             let widest = (0..angles.len()).map(|k| [angles[k], next(k)]).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
-            if let Some([from, to]) = widest.filter(|[from, to]| to - from >= LEAST_OPENING) {
-                let middle = 0.5 * (from + to);
+            if let Some(middle) = widest.filter(|[from, to]| to - from >= LEAST_OPENING).map(|[from, to]| 0.5 * (from + to)) {
                 *range = [middle + 0.5 * OPENING, middle + TAU - 0.5 * OPENING];
             }
         }

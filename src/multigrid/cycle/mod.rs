@@ -147,9 +147,7 @@ impl Descent<'_> {
         }
         level.relax(before, b, x);
         let mut left = g.to_vec();
-        if let Some(border) = self.border {
-            border.subtract_corner(p, &mut left);
-        }
+        self.border.iter().for_each(|border| border.subtract_corner(p, &mut left));
         let change = self.correct(levels, &left, b, x);
         p.iter_mut().zip(change).for_each(|(p, change)| *p += change);
     }

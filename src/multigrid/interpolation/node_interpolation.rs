@@ -45,8 +45,7 @@ fn lists(rows: &NodeParents, fine: &Space, coarse: &Space, far: &[usize]) -> Cou
     };
     let (mut even, mut weighted, mut others) = (Vec::new(), Vec::new(), Vec::new());
     for (node, pair) in rows.iter() {
-        let at = (node - fine.own.start) as u32;
-        let weights = rows.weights(node);
+        let (at, weights) = ((node - fine.own.start) as u32, rows.weights(node));
         let plain = fine.constraints.get(node).is_none() && pair.iter().all(|&p| coarse.constraints.get(p).is_none());
         if plain && weights == [0.5; 2] {
             even.push([at, place(pair[0]), place(pair[1])]);

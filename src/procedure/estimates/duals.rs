@@ -48,8 +48,7 @@ impl Duals<'_> {
 
     /// The right-hand side of the dual problem of a quantity. **Collective**
     fn functional(&self, quantity: &Quantity, system: &System, solution: &Solution) -> Result<Option<Functional>, SystemError> {
-        let problem = system.problem();
-        let nothing = vec![0.0; problem.finest().local_unknowns()];
+        let (problem, nothing) = (system.problem(), vec![0.0; system.problem().finest().local_unknowns()]);
         let of_pressure = |name: &str, weights: &dyn Fn(usize, &ContactPressure) -> Vec<f64>| {
             let at = problem.contacts.iter().position(|contact| contact.pair.name == name)?;
             let contact = &problem.contacts[at];

@@ -95,9 +95,8 @@ impl OneMesh<'_> {
         }
         self.begin(None);
         let mut system = self.system(problem, &bodies, preconditioning)?;
-        let found =
-            self.sets(&mut system, start, self.tolerance, LoopPosition { boundary: 1, passes: 0, is_hard: self.is_hard })?;
-        let LoopOutcome { solution, ending, passes, ascended } = found;
+        let first = LoopPosition { boundary: 1, passes: 0, is_hard: self.is_hard };
+        let LoopOutcome { solution, ending, passes, ascended } = self.sets(&mut system, start, self.tolerance, first)?;
         let solution = self.finished(&mut system, solution, &ending, ascended)?;
         let (preconditioning, solver) = (system.preconditioning(), system.solver_name().to_string());
         drop(system);

@@ -92,11 +92,8 @@ fn remarks(words: &str, file: &Path) -> Vec<String> {
         }
     }
     lines.iter_mut().for_each(|line| *line = line.chars().take(LONGEST_REMARK + 20).collect());
-    if lines.len() > MOST_REMARKS {
-        lines.truncate(MOST_REMARKS);
-        lines.push("…".into());
-    }
-    lines
+    let more = (lines.len() > MOST_REMARKS).then(|| "…".to_owned());
+    lines.into_iter().take(MOST_REMARKS).chain(more).collect()
 }
 
 /// What holds and loads the bodies of a case, as far as it has a place on its mesh.

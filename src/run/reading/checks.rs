@@ -117,11 +117,10 @@ fn check_points(case: &Case, mesh: &MacroMesh, exact: &ContactExact) -> Result<(
     let longest = sides.iter().copied().flatten().map(|&edge| mesh.edge_length(edge)).fold(0.0, f64::max);
     for &[x, y] in at {
         let here = Point::new(x, y);
-        let nearest = sides.map(|side| nearest(mesh, side, here));
-        let [Some(first), Some(second)] = nearest else { return Ok(()) };
+        let [Some(first), Some(second)] = sides.map(|side| nearest(mesh, side, here)) else { return Ok(()) };
         let (near, other) = if first.1 <= second.1 { (first, 1) } else { (second, 0) };
         // Bodies may be drawn apart, with Γ_C between them.
-        let apart = self::nearest(mesh, sides[other], near.0).map_or(0.0, |(_, distance)| distance);
+        let apart = nearest(mesh, sides[other], near.0).map_or(0.0, |(_, distance)| distance);
         if near.1 > longest + apart {
             let (name, [one, two], [x, y, far]) = (&exact.name, &pair.between, [x, y, near.1].map(Rounded));
             return Err(format!(

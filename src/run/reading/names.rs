@@ -4,7 +4,7 @@ use crate::body::Body;
 use crate::case::{Case, listed};
 use crate::contact::Pair;
 use crate::geometry::Quote;
-use crate::mesh::{MacroMesh, surfaces};
+use crate::mesh::{MacroMesh, each_once, surfaces};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -109,10 +109,7 @@ impl Names<'_> {
         let key = format!("contact.{pair}.between");
         let mut bodies = Vec::new();
         for name in between.iter().filter(|name| self.case.tool_of(name).is_none()) {
-            let mut found: Vec<usize> =
-                self.mesh.boundary(name).iter().flat_map(|b| &b.edges).map(|&edge| self.mesh.body_beside(edge)).collect();
-            found.sort_unstable();
-            found.dedup();
+            let found = each_once(self.mesh.edges_of(name).iter().map(|&edge| self.mesh.body_beside(edge)));
             if let [body] = found[..] {
                 bodies.push(body);
             } else {

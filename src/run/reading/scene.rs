@@ -43,9 +43,7 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     names.check_unions().and_then(|()| names.check_plates()).map_err(in_file)?;
     case.unions.iter().for_each(|union| mesh.unite(&union.name, &union.curves));
     let names = Names { case, mesh: &mesh };
-    for pair in &case.contacts {
-        names.check_sides(&pair.name, &pair.between).map_err(in_file)?;
-    }
+    case.contacts.iter().try_for_each(|pair| names.check_sides(&pair.name, &pair.between)).map_err(in_file)?;
     for geometry in &case.geometries {
         mesh.bend(&geometry.name, &geometry.curves, &geometry.curve).map_err(|error| error.to_string())?;
     }

@@ -197,17 +197,15 @@ impl Report {
     /// The last words: the verdict, and where the results are. A bad one is printed even if the run is quiet.
     pub fn verdict(&self, summary: &Summary, out: &Path) {
         let reason = summary.reason.as_deref().unwrap_or_default();
+        let lines = clauses(reason).join("\n    ");
         match summary.status {
-            Status::Converged => match untrusted(summary) {
-                None => self.say(&format!("mezha: converged: {reason}")),
-                Some(contacts) => {
-                    self.say(&format!("mezha: converged; pressure NOT trusted ({contacts})"));
-                    clauses(reason).iter().for_each(|clause| self.say(&format!("    {clause}")));
-                }
-            },
+            Status::Converged => self.say(&match untrusted(summary) {
+                None => format!("mezha: converged: {reason}"),
+                Some(contacts) => format!("mezha: converged; pressure NOT trusted ({contacts})\n    {lines}"),
+            }),
             Status::NotConverged | Status::Unresolved | Status::Interrupted => {
                 let words = if summary.status == Status::Unresolved { "resolved" } else { "converged" };
-                let words = format!("mezha: NOT {words}: {}", clauses(reason).join("\n    "));
+                let words = format!("mezha: NOT {words}: {lines}");
                 if self.first && !self.speaks {
                     let _ = progress::aside(|| writeln!(std::io::stderr(), "{words}"));
                 }

@@ -92,8 +92,7 @@ impl BorderBlocks {
     pub fn set(&mut self, problem: &Discretisation, rows: &CouplingRows, multipliers: &MultiplierBlocks, active: &[bool]) {
         let all = self.weights.groups_of(0..active.len());
         self.weights.change(&all, &problem.contacts, active);
-        let weighted = self.weighted_gaps();
-        let rigid = self.border.stiffness.nrows();
+        let (weighted, rigid) = (self.weighted_gaps(), self.border.stiffness.nrows());
         self.stiffness = (0..self.border.components.len()).map(|_| BTreeMap::new()).collect();
         for (i, j) in (0..rigid).flat_map(|i| (0..rigid).map(move |j| (i, j))) {
             self.stiffness[i].insert(j, self.border.stiffness[(i, j)]);

@@ -77,9 +77,7 @@ pub(super) fn read_elements(cursor: &mut Cursor, groups: &Groups, elements: &mut
             if cursor.is_text() {
                 cursor.line_into_whole(SECTION, words)?;
             } else {
-                for word in words.iter_mut() {
-                    *word = cursor.size(SECTION)?;
-                }
+                words.iter_mut().try_for_each(|word| cursor.size(SECTION).map(|size| *word = size))?;
             }
             elements.add(cursor, kind, &words[1..], names)?;
         }

@@ -35,10 +35,8 @@ impl NodeCircle {
         let centre = circumcentre([first, second, third])?;
         let radius = (first - centre).norm();
         let is_on = points.iter().all(|x| ((x - centre).norm() - radius).abs() <= OFF * radius);
-        let angle = |edge: u32| {
-            let [a, b] = ends(edge);
-            2.0 * (0.5 * (b - a).norm() / radius).min(1.0).asin()
-        };
+        let length = |edge: u32| (ends(edge)[1] - ends(edge)[0]).norm();
+        let angle = |edge: u32| 2.0 * (0.5 * length(edge) / radius).min(1.0).asin();
         (is_on && edges.iter().all(|&edge| angle(edge) <= WIDEST_TURN)).then_some(Self { centre, radius })
     }
 }
