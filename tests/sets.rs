@@ -323,3 +323,29 @@ contact.c = { between = ["seat.top", "leaf.bottom"], curve = "line", gap = 0.02 
         assert_eq!(ended.value("/contact/c/trust_force"), true, "{}", ended.said());
     }
 }
+
+/// The programme of the first mesh moves the bodies, so that a boundary is cut into other segments than those that it has told of: what
+/// it has told is of no use then. Such a scene ended with a panic.
+#[test]
+fn a_boundary_that_the_programme_has_moved_begins_anew() {
+    let mesh = include_str!("meshes/three_blocks.msh");
+    let case = r#"
+mesh = { file = "mesh.msh" }
+body.b0 = { young = 127.721807493897, poisson = 0.2 }
+body.b1 = { young = 730.7069647627469, poisson = 0.49 }
+body.b2 = { young = 390.2899486276203, poisson = 0.0 }
+support.base = { on = "b0.b", uy = 0 }
+support.side = { on = ["b0.l", "b1.l", "b2.l"], normal = 0 }
+contact.c0 = { between = ["b0.t", "b1.b"] }
+contact.c1 = { between = ["b1.t", "b2.b"], law = "bilateral" }
+load.top = { on = "b2.t", pressure = 0.18 }
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for ranks in [1, 2] {
+        let ended = Run::file(&write_scene(folder.path(), mesh, case)).ranks(ranks).converged();
+        for name in ["c0", "c1"] {
+            let force = ended.number(&format!("/contact/{name}/resultant/1")).abs();
+            assert!((force - 3.0 * 0.18).abs() < 1e-6, "{name} carries {force} on {ranks} ranks");
+        }
+    }
+}

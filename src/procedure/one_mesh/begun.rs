@@ -87,8 +87,13 @@ impl Procedure<'_> {
         };
         let motion = BoundaryMotion::new(&scene, space, &start.displacement, self.session);
         let displacement = |node: EdgeNode| motion.at(node, &scene.mesh, space);
-        let contacts = Contact::all_again(&scene, &space.numbering, self.session.rank(), &known, &displacement)?;
-        let mut problem = Discretisation::with(scene, spaces, contacts, motion, self.session)?;
+        let placed = Contact::all_again(&scene, &space.numbering, self.session.rank(), &known, &displacement)?;
+        // Where the bodies have moved on since, a boundary may have other segments: then nothing is known of them.
+        let is_same = contacts.iter().map(Contact::range).eq(placed.iter().map(Contact::range));
+        let mut problem = Discretisation::with(scene, spaces, placed, motion, self.session)?;
+        if !is_same {
+            return Ok(Begun::Ready(Box::new(problem), None));
+        }
         if !is_assembly(&problem.scene) {
             problem.first_set = Some(start.active);
             return Ok(Begun::Ready(Box::new(problem), None));
