@@ -293,3 +293,32 @@ fn a_radial_pressure_has_a_force_and_no_direction() {
     let row: Vec<&str> = contacts.lines().nth(1).expect("a row").split(',').collect();
     assert_eq!([row[4], row[5]], ["", ""], "{contacts}");
 }
+
+/// How far bodies come together is a length: a force of a whole ring, which it is judged by, made it an area. The same ring in other units
+/// has the same verdict.
+#[test]
+fn a_ring_comes_together_by_a_length_in_any_unit() {
+    for size in [1.0, 1e-3, 1e6] {
+        let ring = grid(4, 4, 1, move |u, v| [size * (1.0 + 2.0 * u), size * v]);
+        let mesh = Mesh { bodies: vec![("ring", ring, ["bottom", "", "top", ""])] };
+        let case = format!(
+            r#"
+plane = "axisymmetric"
+mesh = {{ file = "mesh.msh", refine = 1 }}
+body.ring = {{ young = 1000.0, poisson = 0.3 }}
+support.bottom = {{ on = "bottom", uy = 0.0 }}
+rigid.tool = {{ line = [[{0}, {size}], [{1}, {size}]], force = [0.0, {2}], ux = 0.0, angle = 0.0 }}
+contact.face = {{ between = ["top", "rigid.tool"] }}
+"#,
+            0.5 * size,
+            3.5 * size,
+            -8.0 * PI * size * size
+        );
+        let (_folder, file) = scene(&mesh, &case);
+        let ended = Run::file(&file).converged();
+        // A pressure of 1 over a width of 2, on a modulus of 1000/(1 - 0.3²).
+        let approach = ended.number("/contact/face/approach") / size;
+        assert!((0.8 * 3.64e-3..1.2 * 4e-3).contains(&approach), "{approach}");
+        assert_eq!(ended.value("/contact/face/trust_force"), true, "{}", ended.said());
+    }
+}

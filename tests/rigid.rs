@@ -419,3 +419,23 @@ contact.right = { between = ["block.right", "rigid.u.3"], gap = "geometry" }
         }
     }
 }
+
+/// A tool with a force and a moment: λ is linear, and its centre is where statics puts it.
+#[test]
+fn the_centre_of_a_linear_pressure_is_exact() {
+    let mesh = Mesh { bodies: vec![("block", grid(4, 2, 5, |u, v| [2.0 * u, v]), ["bottom", "", "top", ""])] };
+    let case = r#"
+mesh = { file = "mesh.msh", refine = 1 }
+body.block = { young = 10.0, poisson = 0.3 }
+support.bottom = { on = "bottom", uy = 0.0 }
+support.pin = { at = [0.0, 0.0], ux = 0.0 }
+rigid.tool = { line = [[-0.5, 1.0], [2.5, 1.0]], about = [0.3, 2.0], force = [0.0, -0.01], moment = -0.005, ux = 0.0 }
+contact.face = { between = ["top", "rigid.tool"] }
+solver.tolerance = 1e-11
+"#;
+    for ranks in [1, 2] {
+        let ended = in_folder(&mesh, case, |run| run.ranks(ranks).converged());
+        let place = ended.number("/contact/face/place/0");
+        assert!((place - 0.8).abs() < 1e-9, "{place}");
+    }
+}

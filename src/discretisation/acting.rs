@@ -1,6 +1,6 @@
 //! Whether anything acts in a scene.
 
-use super::Scene;
+use super::scene::Scene;
 use crate::body::LoadKind;
 use crate::contact::{GapChoice, Law, Pair, drawn_gap};
 use crate::geometry::Formula;
@@ -10,9 +10,11 @@ use crate::mesh::Numbering;
 /// this share of the largest.
 pub const BY_ROUNDING: f64 = 1e-9;
 
-/// Whether a scene has loads, prescribed motions, heat or interference. Without them its bodies stay as they are drawn.
-pub fn is_driven(scene: &Scene, numbering: &Numbering) -> bool {
-    is_loaded(scene) || is_moved(scene) || scene.pairs.iter().any(|pair| interferes(scene, numbering, pair))
+impl Scene {
+    /// Whether it has loads, prescribed motions, heat or interference. Without them its bodies stay as they are drawn.
+    pub fn is_driven(&self, numbering: &Numbering) -> bool {
+        is_loaded(self) || is_moved(self) || self.pairs.iter().any(|pair| interferes(self, numbering, pair))
+    }
 }
 
 fn acts(formula: &Formula) -> bool {

@@ -29,7 +29,7 @@ mod scene;
 mod solution;
 mod space;
 
-pub use acting::{BY_ROUNDING, is_driven};
+pub use acting::BY_ROUNDING;
 pub use contacts::{
     BoundaryMotion, Contact, ContactPressure, Coupled, Coupling, beside, bilateral, check_soundness, coupled_here, widest,
 };

@@ -1,7 +1,7 @@
 //! A scene solved.
 
 use crate::accuracy::Adaptation;
-use crate::discretisation::{BY_ROUNDING, Discretisation, Solution, is_driven};
+use crate::discretisation::{BY_ROUNDING, Discretisation, Solution};
 use crate::petsc::Session;
 use crate::procedure::boundary::BoundaryStep;
 use crate::procedure::coarse_solution::CoarseSolution;
@@ -95,7 +95,7 @@ impl Solved {
 
     /// Whether anything acts, or nothing was solved. The same on every rank.
     pub fn is_driven(&self) -> bool {
-        !self.is_solved() || is_driven(&self.problem.scene, &self.problem.finest().numbering)
+        !self.is_solved() || self.problem.scene.is_driven(&self.problem.finest().numbering)
     }
 
     /// Whether there are displacements to look at.

@@ -6,7 +6,7 @@ use crate::geometry::Point;
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
 
-/// For each contact, with its force (per thickness); ranks take them in turn. Bodies that lie along each other from the beginning
+/// For each contact, with its force (per thickness, of a body of revolution that of the whole); ranks take them in turn. Bodies that lie along each other from the beginning
 /// come together by what strains them: a pressure p over a width w moves a boundary by about `2 p w/E`. **Collective**
 pub fn penetrations(problem: &Discretisation, solution: &Solution, forces: &[f64], session: &Session) -> Vec<Penetration> {
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
@@ -17,7 +17,10 @@ pub fn penetrations(problem: &Discretisation, solution: &Solution, forces: &[f64
         let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
         let Penetration { depth, place, approach } = penetration(&sides, &contact.pair);
         let softest = contact.moduli.iter().copied().fold(f64::INFINITY, f64::min);
-        let approach = approach.max(2.0 * forces[at].abs() / softest);
+        // The force of a body of revolution is that of the whole ring.
+        let boundary = &contact.boundary;
+        let width = mesh.plane.width(boundary.point(boundary.parameter_at(0.5 * boundary.length())));
+        let approach = approach.max(2.0 * forces[at].abs() / (width * softest));
         values[4 * at..4 * at + 4].copy_from_slice(&[depth, place.x, place.y, approach]);
     }
     session.sum(&mut values);

@@ -1,6 +1,7 @@
 //! How far apart the sides of a contact are drawn.
 
-use crate::contact::{Pair, SmoothSide};
+use crate::contact::pair::Pair;
+use crate::contact::smooth_side::SmoothSide;
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, Numbering};
 

@@ -27,15 +27,8 @@ impl<'a> ContactPressure<'a> {
         self.contact.multipliers.value(self.values, k, z)
     }
 
-    /// λ at the foot of a point, on the segment that holds it.
+    /// λ at the foot of a point; at a segment end the mean of both values, so that rounding does not choose one of them.
     pub fn at_foot(&self, x: Point) -> f64 {
-        let boundary = &self.contact.boundary;
-        let (segment, z) = boundary.locate(boundary.foot(x));
-        self.value(segment, z.clamp(0.0, 1.0))
-    }
-
-    /// λ at the foot of a point; at a segment end the mean of both values.
-    pub fn mean_at_foot(&self, x: Point) -> f64 {
         let boundary = &self.contact.boundary;
         let knots = boundary.knots();
         let (k, z) = boundary.locate(boundary.foot(x).clamp(knots[0], knots[knots.len() - 1]));
@@ -53,6 +46,18 @@ impl<'a> ContactPressure<'a> {
     /// `∫λ ds` (force per thickness).
     pub fn force(&self) -> f64 {
         self.values.iter().enumerate().map(|(i, value)| value * self.contact.multipliers.integral(i)).sum()
+    }
+
+    /// The centre of λ in either sign, where its force acts; nothing if nothing presses.
+    pub fn centre(&self) -> Option<Point> {
+        let boundary = &self.contact.boundary;
+        let parts = boundary.gauss_on(0..boundary.segments(), 3).map(|(k, z, _, length)| {
+            let t = boundary.parameter_on(k, z);
+            let force = self.value(k, z).abs() * length * boundary.width(t);
+            (force, force * boundary.point(t))
+        });
+        let (force, moment) = parts.fold((0.0, Point::zeros()), |sum, part| (sum.0 + part.0, sum.1 + part.1));
+        (force > 0.0).then(|| moment / force)
     }
 
     /// The largest value of a multiplier.

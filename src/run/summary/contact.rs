@@ -37,7 +37,7 @@ pub fn contact(solved: &Solved, found: &Evaluation, at: usize, points: &[TracePo
         force: Some(force.force),
         unresolved_force: Some(found.unresolved_force(at, points)),
         resultant: Some(force.resultants[1].into()),
-        place: place(points),
+        place: pressure.centre().or_else(|| nearest(points)).map(Into::into),
         moment: Some(force.moments[1]),
         pressure_max: Some(pressure.largest()),
         oscillation: pressure.oscillation(),
@@ -62,16 +62,10 @@ pub fn contact(solved: &Solved, found: &Evaluation, at: usize, points: &[TracePo
     (described, estimate)
 }
 
-/// The centre of the pressure, in either sign; where nothing presses, the point with the smallest gap.
-fn place(points: &[TracePoint]) -> Option<[f64; 2]> {
-    let parts = points.windows(2).map(|ends| {
-        let [a, b] = [0, 1].map(|k| 0.5 * (ends[1].arc - ends[0].arc) * ends[k].lambda.abs());
-        (a + b, a * ends[0].x + b * ends[1].x)
-    });
-    let (weight, moment) = parts.fold((0.0, Point::zeros()), |sum, part| (sum.0 + part.0, sum.1 + part.1));
-    let nearest = || points.iter().filter(|point| point.gap.is_finite()).min_by(|a, b| a.gap.total_cmp(&b.gap));
-    let place = if weight > 0.0 { Some(moment / weight) } else { nearest().map(|point| point.x) };
-    place.map(Into::into)
+/// Where the sides come nearest (length).
+fn nearest(points: &[TracePoint]) -> Option<Point> {
+    let nearest = points.iter().filter(|point| point.gap.is_finite()).min_by(|a, b| a.gap.total_cmp(&b.gap));
+    nearest.map(|point| point.x)
 }
 
 /// Name of a multiplier space in the case file.

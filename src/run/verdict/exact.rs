@@ -63,7 +63,7 @@ pub fn compare(case: &Case, found: &Evaluation) -> Result<Errors, RunError> {
                 (pressure.error(formula), *tolerance)
             }
             Some(LambdaExact::Points { at, value, tolerance }) => {
-                let one = |(x, value): (&[f64; 2], &f64)| (pressure.mean_at_foot(Point::new(x[0], x[1])) / value - 1.0).abs();
+                let one = |(x, value): (&[f64; 2], &f64)| (pressure.at_foot(Point::new(x[0], x[1])) / value - 1.0).abs();
                 (at.iter().zip(value).map(one).fold(0.0, larger), *tolerance)
             }
         };

@@ -194,7 +194,7 @@ fn errors_of_contacts_name_key_value_and_remedy() {
         ("contact.c.segments=many", "must be \"auto\", a whole number >= 1, or fractions"),
         ("contact.c.segments=[0, 0.5]", "must ascend from 0 to 1"),
         ("contact.c.segments=[0, 0.5, 0.5, 1]", "must ascend from 0 to 1"),
-        ("contact.c.law=bonded", "must be \"unilateral\" or \"bilateral\"; there are"),
+        ("contact.c.law=bonded", "must be \"unilateral\" or \"bilateral\""),
         ("contact.c.quadrature=segments", "must be \"cut\" or \"segment\"; did you mean \"segment\"?"),
         ("contact.c.points=5", "contact.c.points = 5 (--set): stands beside quadrature = \"cut\""),
         ("contact.c={between=['p', 'q'], curve='line', quadrature='segment', points=21}", "must be a whole number from 1 to 20"),

@@ -97,7 +97,12 @@ fn every_status_has_its_page() {
         let page = page(status, &["deformed.svg"]);
         check_tags(&page);
         assert!(page.contains(&format!("<strong>{words}</strong>")), "{page}");
-        for words in ["The set stands (a; b); nothing presses on contact &lt;b&gt;.", "a&amp;b.msh", "missed", "beware of"] {
+        for words in [
+            "<li>the set stands (a; b)</li>\n<li>nothing presses on contact &lt;b&gt;</li>",
+            "a&amp;b.msh",
+            "missed",
+            "beware of",
+        ] {
             assert!(page.contains(words), "{words}: {page}");
         }
         assert!(page.matches("<script").count() == 1 && page.contains("<script>\n//") && !page.contains("NaN"), "{page}");

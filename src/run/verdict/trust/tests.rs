@@ -61,7 +61,7 @@ fn a_pressure_is_doubted_by_what_is_far_off() {
         unresolved_doubt(&contact).map_or(String::new(), |doubt| doubt.figure)
     };
     assert_eq!((within(5.4, 0.2), within(0.0, 0.0)), (String::new(), String::new()));
-    assert!(within(5.4, 4.2).contains("worth 0.78 of its force") && within(0.0, 4.2).contains("within segments"));
+    assert!(within(5.4, 4.2).contains("apart would take 0.78 times its force") && within(0.0, 4.2).contains("within segments"));
 }
 
 #[test]

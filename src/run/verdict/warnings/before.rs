@@ -2,7 +2,7 @@
 
 use crate::body::{BodyPart, RigidSet};
 use crate::case::Case;
-use crate::discretisation::{Contact, Scene, is_driven};
+use crate::discretisation::{Contact, Scene};
 use crate::element::Order;
 use crate::mesh::{MacroMesh, Numbering, Slit};
 use crate::run::verdict::limits::{P1_STIFF, ROTATION};
@@ -16,7 +16,7 @@ pub const TO_DRIVE: &str = "give a load, a support that moves, heat, or a negati
 
 /// A sentence for a scene in which nothing acts.
 pub fn idle(scene: &Scene, numbering: &Numbering) -> Option<String> {
-    (!is_driven(scene, numbering)).then(|| format!("{IDLE}; {TO_DRIVE}"))
+    (!scene.is_driven(numbering)).then(|| format!("{IDLE}; {TO_DRIVE}"))
 }
 
 /// A sentence for each body of whose boundary edges some lie on each other.
