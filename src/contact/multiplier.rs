@@ -62,7 +62,6 @@ pub struct Multipliers {
     /// Mean widths across the plane, `∫ψ_i w ds / ∫ψ_i ds`.
     widths: Vec<f64>,
     /// Whether the last segment is followed by the first.
-    /// Whether the last segment is followed by the first.
     pub closed: bool,
 }
 

@@ -6,8 +6,9 @@ use crate::geometry::Point;
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
 
-/// For each contact, with its force (per thickness, of a body of revolution that of the whole); ranks take them in turn. Bodies that lie along each other from the beginning
-/// come together by what strains them: a pressure p over a width w moves a boundary by about `2 p w/E`. **Collective**
+/// For each contact, with its force (per thickness, of a body of revolution that of the whole); ranks take them in turn. Bodies that
+/// lie along each other from the beginning come together by what strains them: a pressure p over a width w moves a boundary by about
+/// `2 p w/E`. **Collective**
 pub fn penetrations(problem: &Discretisation, solution: &Solution, forces: &[f64], session: &Session) -> Vec<Penetration> {
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let motion = BoundaryMotion::new(&problem.scene, space, &solution.displacement, session);

@@ -56,14 +56,19 @@ pub fn coarsenings(problem: &Discretisation, ranks: usize) -> Vec<Rc<Coarsening>
         let nodes = coarsenings.last().map_or(&mesh, |step| &step.coarse);
         let mut step = Coarsening::new(nodes, &trees);
         let count = step.coarse.all.len();
+        let coarser: Vec<Option<Tree>> = trees.iter().map(Tree::coarser).collect();
+        let is_coarsest = coarser.iter().all(Option::is_none);
+        trees = coarser.into_iter().zip(trees).map(|(coarser, tree)| coarser.unwrap_or(tree)).collect();
+        // Bodies of few triangles would have more functions than nodes, and a singular level.
+        if count > nodes.all.len() && !is_coarsest {
+            continue;
+        }
         let is_lowest = 2 * count <= SMALL || count as f64 > (1.0 - LEAST_GAIN) * nodes.all.len() as f64;
         step.coarse.bring_together(if is_lowest { ranks.next_power_of_two() } else { ranks_in_group(2 * count, ranks) });
         coarsenings.push(Rc::new(step));
         if is_lowest {
             break;
         }
-        let coarser: Vec<Option<Tree>> = trees.iter().map(Tree::coarser).collect();
-        trees = coarser.into_iter().zip(trees).map(|(coarser, tree)| coarser.unwrap_or(tree)).collect();
     }
     coarsenings.reverse();
     coarsenings

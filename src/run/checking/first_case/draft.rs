@@ -1,7 +1,7 @@
 //! The text of a first case.
 
 use super::guesses::{Guesses, POISSON, PRESSED, Press, Weight, YOUNG};
-use super::named_curve::{LOADED, MIRRORED, PULLED};
+use super::named_curve::{LOADED, MIRRORED, NamedCurve, PULLED};
 use super::node_circle::NodeCircle;
 use crate::contact::ClosePair;
 use crate::run::checking::proposals::{MeanProposal, TableNames, contact_table, key, quoted, short};
@@ -148,14 +148,17 @@ order = 2
 
     /// What may press on a body that is alone: a rigid tool above the boundary that is pressed, as a comment.
     fn tool(&self, text: &mut String) {
-        let Some(curve) = self.guesses.pressed().filter(|_| self.guesses.mesh.bodies.len() == 1) else { return };
-        let [left, right, high] = [curve.low.x, curve.high.x, curve.high.y].map(short);
+        let is_below = |curve: &&NamedCurve| curve.normal.y > 0.0 && curve.high.x > curve.low.x && !curve.has(PULLED);
+        let pressed = self.guesses.pressed().filter(is_below).filter(|_| self.guesses.mesh.bodies.len() == 1);
+        let Some(curve) = pressed else { return };
+        let [left, right, high] =
+            [curve.low.x, curve.high.x, curve.high.y].map(|x| format!("{x:.9e}").parse::<f64>().unwrap_or(x));
         let _ = write!(
             text,
             "
 # A rigid tool, which needs no mesh, may press on the body instead of a load:
 # [rigid.tool]
-# line = [[{left}, {high}], [{right}, {high}]]   # or circle = {{ centre = [x, y], radius = r }}
+# line = [[{left:?}, {high:?}], [{right:?}, {high:?}]]   # or circle = {{ centre = [x, y], radius = r }}
 # ux = 0.0
 # uy = -0.01                # example: how far it is moved; or force = [0.0, -1.0]
 # angle = 0.0
@@ -219,8 +222,8 @@ order = 2
         let what = if sense < 0.0 { "pulled" } else { "pressed" };
         let why = match curve {
             _ if sense < 0.0 && !curve.has(PULLED) => "a push would open every contact of its body",
-            _ if curve.is_held() => "its name says that it is held, but then nothing would act",
             _ if curve.has(LOADED) => "by its name",
+            _ if curve.is_held() => "its name says that it is held, but then nothing would act",
             _ => "the highest boundary that looks up",
         };
         let mut tables = TableNames::default();

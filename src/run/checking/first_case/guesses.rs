@@ -84,7 +84,7 @@ impl<'a> Guesses<'a> {
     }
 
     /// The boundaries that are held: of each body one that says so by its name, or else the lowest of all that look down. Where that would
-    /// be all bodies, and none is drawn into another, nothing would act: the highest is left to a load then.
+    /// be all bodies, and neither a name nor an interference loads one, nothing would act: the highest is left to a load then.
     pub fn held(&self) -> Vec<&NamedCurve<'a>> {
         let rank = |curve: &&NamedCurve| (curve.normal.y < -ALONG, -curve.low.y);
         let likeliest = |a: &&NamedCurve, b: &&NamedCurve| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal);
@@ -93,7 +93,8 @@ impl<'a> Guesses<'a> {
         if held.is_empty() {
             held.extend(self.free().filter(|curve| curve.normal.y < -ALONG).max_by(likeliest));
         }
-        if held.len() > 1 && held.len() == self.mesh.bodies.len() && !self.is_pressed_in() {
+        let is_loaded = self.is_pressed_in() || self.free().any(|curve| curve.has(LOADED) && !curve.is_held());
+        if held.len() > 1 && held.len() == self.mesh.bodies.len() && !is_loaded {
             held.sort_by(|a, b| a.low.y.total_cmp(&b.low.y));
             held.pop();
         }
@@ -130,13 +131,14 @@ impl<'a> Guesses<'a> {
         self.held().iter().map(|held| held.body).chain(self.foundation().map(|(body, _)| body)).collect()
     }
 
-    /// The boundary that is pressed: by its name, or because it is the highest and looks up; on a body that is not held, if there is one.
+    /// The boundary that is pressed: by its name, or because it is the highest and looks up; on a body that is not held, unless a name loads one that is.
     /// That of a body that is drawn into another is an example alone: what presses is the interference.
     pub fn pressed(&self) -> Option<&NamedCurve<'a>> {
         let (bases, held, is_alone) = (self.bases(), self.held(), self.mesh.bodies.len() == 1);
         let is_held = |curve: &NamedCurve| held.iter().any(|held| held.name == curve.name);
-        let other = |curve: &&NamedCurve| !bases.contains(&curve.body) || is_alone && !is_held(curve);
-        let rank = |curve: &&NamedCurve| (curve.has(LOADED) || curve.is_held(), curve.normal.y > ALONG, curve.high.y);
+        let is_free = |curve: &NamedCurve| is_alone || !bases.contains(&curve.body) || curve.has(LOADED);
+        let other = |curve: &&NamedCurve| is_free(curve) && !is_held(curve);
+        let rank = |curve: &&NamedCurve| (curve.has(LOADED), curve.is_held(), curve.normal.y > ALONG, curve.high.y);
         let likely = self.free().filter(other);
         let likely = likely.filter(|curve| curve.has(LOADED) || curve.is_held() || curve.normal.y > ALONG);
         let best = likely.max_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal));
