@@ -75,3 +75,18 @@ fn one_mesh_alone_tells_nothing_and_a_punch_presses_with_its_corner() {
         assert_eq!(words, wanted);
     }
 }
+
+/// The end is pulled most at its top, so that the largest stress lies there; that of the corner of the notch is more than half of it, and
+/// has no bound. Without the notch the same is believed.
+#[test]
+fn a_place_without_bound_speaks_against_a_larger_stress_elsewhere() {
+    let acting = "support.low = { on = \"left\", ux = 0.0 }\nsupport.high = { on = \"top\", uy = 0.0 }\nload.end = { on = \"right\", traction = [\"1 + 18*y^8\", 0.0] }";
+    for ranks in [1, 2] {
+        let ended = run(0.35, acting, ranks);
+        let [x, _] = numbers(&ended, "/body/block/place");
+        assert!(x > 1.9, "the largest stress lies at x = {x}");
+        let words = "at the corner (1, 0.35), where the stress has no bound: it grows with each mesh";
+        assert_eq!(ended.value("/body/block/verdict"), words);
+    }
+    assert_eq!(run(0.0, acting, 1).value("/body/block/is_believed"), true);
+}

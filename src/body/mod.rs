@@ -87,6 +87,11 @@ pub struct BodyPart {
 }
 
 impl BodyPart {
+    /// Whether nothing jumps between it and another part: one material, and no heat in either.
+    pub fn is_alike(&self, other: &Self) -> bool {
+        self.material == other.material && self.heat.is_none() && other.heat.is_none()
+    }
+
     /// The formulas that are integrated over it.
     pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
         self.force.iter().chain(self.heat.as_ref().map(|heat| &heat.temperature))

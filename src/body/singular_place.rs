@@ -45,6 +45,8 @@ pub struct SingularPlace {
     pub body: usize,
     /// Where.
     pub place: Point,
+    /// The vertex of the mesh that it is, if it is one.
+    pub vertex: Option<u32>,
     /// Whether that is meant on the deformed bodies.
     pub is_deformed: bool,
     /// Why.
@@ -105,12 +107,13 @@ pub fn singular_places(mesh: &MacroMesh, parts: &[&BodyPart], supports: &[Suppor
             joint.filter(|_| !is_on_mirror).map(|_| Unbounded::Materials)
         });
         let (body, place) = (mesh.body_beside(at.edges[0]), mesh.vertices[at.vertex as usize]);
-        found.extend(why.map(|why| SingularPlace { body, place, is_deformed: false, why }));
+        found.extend(why.map(|why| SingularPlace { body, place, vertex: Some(at.vertex), is_deformed: false, why }));
     }
     let inside = joints.into_iter().filter(|(_, Joint { directions, .. })| turns(directions));
     found.extend(inside.map(|(vertex, Joint { body, .. })| SingularPlace {
         body,
         place: mesh.vertices[vertex as usize],
+        vertex: Some(vertex),
         is_deformed: false,
         why: Unbounded::Materials,
     }));
@@ -178,7 +181,7 @@ fn joints(mesh: &MacroMesh, parts: &[&BodyPart]) -> HashMap<u32, Joint> {
     for (edge, beside) in mesh.edges.iter().enumerate() {
         let [Some(first), Some(second)] = beside.triangles.map(|k| k.map(|k| &mesh.triangles[k as usize])) else { continue };
         let [a, b] = [first, second].map(|triangle| parts[triangle.part as usize]);
-        let is_one = first.part == second.part || a.material == b.material && a.heat.is_none() && b.heat.is_none();
+        let is_one = first.part == second.part || a.is_alike(b);
         for vertex in beside.vertices.into_iter().filter(|_| !is_one) {
             let joint = joints.entry(vertex).or_insert(Joint { body: first.body as usize, directions: Vec::new() });
             joint.directions.push(mesh.direction_from(edge as u32, vertex));

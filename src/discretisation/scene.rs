@@ -96,7 +96,7 @@ impl Scene {
     }
 
     /// A part of the mesh.
-    fn part(&self, part: usize) -> &BodyPart {
+    pub(super) fn part(&self, part: usize) -> &BodyPart {
         let surface = &self.mesh.parts[part];
         let mut parts = self.bodies[surface.body as usize].parts.iter();
         parts.find(|part| part.name == surface.name).expect("every physical surface has its constants")

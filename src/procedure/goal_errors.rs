@@ -157,19 +157,20 @@ impl Procedure<'_> {
         Ok(self.pressure_error(solved, at)?.is_some_and(|error| error < smallest.min(MOST_UNKNOWN)))
     }
 
-    /// Whether λ of a contact grows without bound towards an end of it, as far as this mesh tells.
+    /// Whether λ of a contact grows without bound towards an end of it, or where materials meet, as far as this mesh tells.
     pub(super) fn has_unbounded_peak(&self, solved: &Solved, name: &str) -> bool {
         contact_called(&solved.problem, name).is_some_and(|at| has_unbounded_peak(solved, at))
     }
 }
 
-/// Whether λ of a contact grows without bound towards an end of one of its zones.
+/// Whether λ of a contact grows without bound towards an end of one of its zones, or where materials meet.
 fn has_unbounded_peak(Solved { problem, solution, estimate, .. }: &Solved, at: usize) -> bool {
     let pressure = solution.pressure(&problem.contacts[at]);
     let grows = |(zone, at_ends): (&Zone, &AtEnds)| {
         (0..2).any(|end| pressure.grows_towards(zone, end, at_ends.map(|values| values.map(|values| values[end]))))
     };
-    pressure.zones().iter().zip(&estimate.at_ends(at)).any(grows)
+    let zones = pressure.zones();
+    zones.iter().any(|zone| pressure.grows_at_joint(zone).is_some()) || zones.iter().zip(&estimate.at_ends(at)).any(grows)
 }
 
 /// The place of a contact among all.

@@ -1,7 +1,7 @@
 //! The largest von Mises stress of each part of the bodies: how large it is, where, and whether the exact stress has a bound there.
 
 use super::evaluation::Evaluation;
-use super::stress::nodal_stress;
+use super::stress::{NodalStress, nodal_stress};
 use crate::body::{CHORDS, SingularPlace, Unbounded, singular_places};
 use crate::contact::Configuration;
 use crate::discretisation::{Contact, ContactPressure, Discretisation, Field, SystemError};
@@ -20,6 +20,13 @@ const FIRST: [f64; 2] = [1.0, 0.37];
 
 /// Edges around a singular place within which a largest stress is that of the place.
 const NEAR: f64 = 2.0;
+
+/// Share of the largest stress of a part from which that of a singular place elsewhere will soon be larger: at a re-entrant corner of
+/// 90 degrees after two refinements.
+const SOON: f64 = 0.5;
+
+/// By what the stress at a singular place is larger than two edges away, at least: powers above .14 (a bend by 20 degrees has .1).
+const CONCENTRATED: f64 = 1.1;
 
 /// Coordinates below this share of the scene are rounding.
 const ROUNDING: f64 = 1e-12;
@@ -82,6 +89,7 @@ impl Evaluation<'_> {
     pub fn stress_peaks(&self, grows: &[bool]) -> Result<Vec<StressPeak>, SystemError> {
         let (problem, mesh, stress) = (self.problem, &self.problem.scene.mesh, self.stress()?);
         let (level, singular) = (problem.finest().numbering.level, all_singular_places(self, grows));
+        let concentrated = self.concentrated_stresses(&singular, stress);
         // Macro triangles where the stress is as large as before them, or nearly: among them are those of the largest one.
         let mut largest = vec![0.0_f64; mesh.parts.len()];
         let mut candidates: Vec<u32> = Vec::new();
@@ -121,11 +129,40 @@ impl Evaluation<'_> {
                 |other: &SingularPlace| (if other.is_deformed { place + displacement } else { place } - other.place).norm();
             let is_near =
                 |other: &&SingularPlace| other.body == mesh.parts[part].body as usize && away(other) <= NEAR * edges[part];
-            let near = singular.iter().filter(is_near);
-            let unbounded = near.min_by(|a, b| away(a).total_cmp(&away(b))).cloned();
+            let near = singular.iter().filter(is_near).min_by(|a, b| away(a).total_cmp(&away(b)));
+            let is_soon_larger =
+                |at: &usize| singular[*at].body == mesh.parts[part].body as usize && concentrated[*at] > SOON * largest[part];
+            let elsewhere = (0..singular.len()).filter(is_soon_larger);
+            let elsewhere = elsewhere.max_by(|a, b| concentrated[*a].total_cmp(&concentrated[*b])).map(|at| &singular[at]);
+            let unbounded = near.or(elsewhere).cloned();
             StressPeak { von_mises: largest[part], place, displacement, unbounded }
         };
         Ok(firsts.into_iter().enumerate().map(peak).collect())
+    }
+
+    /// The von Mises stress at each singular place that is a vertex, if it falls away from there; zero elsewhere. **Collective**
+    fn concentrated_stresses(&self, places: &[SingularPlace], stress: &NodalStress) -> Vec<f64> {
+        let (mesh, numbering) = (&self.problem.scene.mesh, &self.problem.finest().numbering);
+        let at_vertex = |(at, place): (usize, &SingularPlace)| Some((place.vertex?, at));
+        let places_at: HashMap<u32, usize> = places.iter().enumerate().filter_map(at_vertex).collect();
+        let n = numbering.level.intervals;
+        let away = (2 * numbering.level.order.degree()).min(n);
+        // The stress there, and the largest one two edges away.
+        let mut found = vec![[0.0_f64; 2]; places.len()];
+        for &triangle in self.problem.scene.partition.triangles_of(self.session.rank()) {
+            let own = &mesh.triangles[triangle as usize];
+            let numbers = numbering.triangle(mesh, triangle as usize);
+            for (corner, vertex) in own.vertices.iter().enumerate() {
+                let Some(&at) = places_at.get(vertex) else { continue };
+                let node = |(i, j)| von_mises(stress.at(own.part as usize, numbers.node(i, j)));
+                let there = node(lattice::side_node(n, corner, 0));
+                let [ahead, back] =
+                    [(corner, away), ((corner + 2) % 3, n - away)].map(|(side, at)| lattice::side_node(n, side, at));
+                found[at] = [found[at][0].max(there), found[at][1].max(node(ahead)).max(node(back))];
+            }
+        }
+        self.session.max(found.as_flattened_mut());
+        found.into_iter().map(|[there, beside]| if there > CONCENTRATED * beside { there } else { 0.0 }).collect()
     }
 }
 
@@ -178,7 +215,7 @@ fn at_point(problem: &Discretisation, spot: &Spot) -> Option<SingularPlace> {
     let vertex = mesh.vertex_at(spot)?;
     let triangle = mesh.triangles.iter().find(|triangle| triangle.vertices.contains(&vertex))?;
     let (body, place) = (triangle.body as usize, mesh.vertices[vertex as usize]);
-    Some(SingularPlace { body, place, is_deformed: false, why: Unbounded::Point })
+    Some(SingularPlace { body, place, vertex: Some(vertex), is_deformed: false, why: Unbounded::Point })
 }
 
 /// The ends of a contact up to which bodies press with a pressure that has no bound, for each of its bodies: where a corner of one
@@ -203,7 +240,7 @@ fn contact_ends((mesh, angles): (&MacroMesh, &HashMap<u32, f64>), pressure: &Con
     let is_deformed = contact.pair.configuration == Configuration::Deformed;
     let of_both = |(knot, why): (f64, Unbounded)| {
         let place = contact.boundary.point(knot);
-        contact.bodies.map(|body| SingularPlace { body, place, is_deformed, why: why.clone() })
+        contact.bodies.map(|body| SingularPlace { body, place, vertex: None, is_deformed, why: why.clone() })
     };
     found.flat_map(of_both).collect()
 }

@@ -1,4 +1,4 @@
-//! The ends of a zone that presses, where they are those of Γ_C: pressures without bound, corners of one body.
+//! Where the pressure of a zone has no bound, at the ends of Γ_C and where materials meet; corners of one body at these ends.
 //!
 //! The loss of a contact that ends by itself was measured on a layer that slides on a block: it lost 3, 11 and 45 % of its force
 //! where `lost_at_ends` says 3, 11 and 33 %.
@@ -12,6 +12,16 @@ use crate::mesh::MacroMesh;
 /// an end.
 const GROWS: f64 = 1.02;
 
+/// Growth from segment to segment above which λ may be singular where materials meet: powers of the distance are weak there. Bars
+/// whose moduli are as 2 : 3 have .003.
+const GROWS_AT_JOINTS: f64 = 1.001;
+
+/// Share of a segment from which it lies on both sides of a joint.
+const ASIDE: f64 = 0.1;
+
+/// Share of the largest λ of a zone from which it matters that λ grows elsewhere.
+const AMONG: f64 = 0.5;
+
 /// Share of the growth by one refinement that the next one adds where λ goes like a power of the distance below zero: one or
 /// more; where it is bounded a half or less.
 const GOES_ON: f64 = 0.75;
@@ -23,23 +33,50 @@ impl ContactPressure<'_> {
     /// Whether λ grows towards an end of Γ_C, ever more quickly, and without bound as meshes are refined, as far as the values
     /// there on the mesh `before` and on the one before that (`earlier`) tell. Steps grow towards any steep end.
     pub fn grows_towards(&self, zone: &Zone, end: usize, [before, earlier]: [Option<f64>; 2]) -> bool {
-        let contact = self.contact;
         if !zone.is_at_end[end] || zone.segments.len() < 3 {
             return false;
         }
         let nth = |i: usize| if end == 0 { zone.segments.start + i } else { zone.segments.end - 1 - i };
-        let [a, b, c] = [0, 1, 2].map(|i| self.value(nth(i), 0.5));
-        let lengths = [0, 1, 2].map(|i| contact.boundary.segment_length(nth(i)));
-        let slopes = [(a - b) / (lengths[0] + lengths[1]), (b - c) / (lengths[1] + lengths[2])];
         let last = self.value(nth(0), if end == 0 { 0.05 } else { 0.95 });
         let grown = match (before, earlier) {
             (Some(before), Some(earlier)) => {
                 last > GROWS * before && before > earlier && last - before > GOES_ON * (before - earlier)
             }
-            (Some(before), None) => contact.multipliers.space != MultiplierSpace::P0 && last > GROWS * before,
+            (Some(before), None) => self.contact.multipliers.space != MultiplierSpace::P0 && last > GROWS * before,
             _ => true,
         };
-        a > GROWS * b && slopes[0] > slopes[1] && grown
+        grown && self.steepens([0, 1, 2].map(nth), GROWS)
+    }
+
+    /// Whether λ grows by more than a factor towards the first of three segments in a row, ever more quickly.
+    fn steepens(&self, row: [usize; 3], factor: f64) -> bool {
+        let [a, b, c] = row.map(|k| self.value(k, 0.5));
+        let lengths = row.map(|k| self.contact.boundary.segment_length(k));
+        let slopes = [(a - b) / (lengths[0] + lengths[1]), (b - c) / (lengths[1] + lengths[2])];
+        a > factor * b && slopes[0] > slopes[1]
+    }
+
+    /// Parameter of Γ_C at which the material of a body changes within a zone, or at an end of it, and towards which λ grows without
+    /// bound (Bogy 1971), as far as this mesh tells, where it is among the largest of the zone.
+    pub fn grows_at_joint(&self, zone: &Zone) -> Option<f64> {
+        let (boundary, least) = (&self.contact.boundary, AMONG * self.peak_of(zone));
+        let count = boundary.segments() as isize;
+        let within_zone = |k: isize| {
+            let own = if boundary.is_closed() { k.rem_euclid(count) } else { k };
+            let is_within = [own, own + count].iter().any(|&k| zone.segments.contains(&(k as usize)));
+            (is_within && (0..count).contains(&own)).then_some(own as usize)
+        };
+        let is_singular = |&&joint: &&f64| {
+            let (at, z) = boundary.locate(joint);
+            // A segment on both sides of the joint says nothing of either.
+            let before = if z > 1.0 - ASIDE { at } else { at.wrapping_sub(1) } as isize;
+            let behind = if z < ASIDE { at } else { at + 1 } as isize;
+            [(before, -1), (behind, 1)].into_iter().any(|(first, way)| match [0, 1, 2].map(|i| within_zone(first + way * i)) {
+                [Some(a), Some(b), Some(c)] => self.value(a, 0.5) > least && self.steepens([a, b, c], GROWS_AT_JOINTS),
+                _ => false,
+            })
+        };
+        self.contact.joints.iter().find(is_singular).copied()
     }
 
     /// Whether a zone reaches an end of Γ_C where one of the bodies has a corner and the other goes on.
@@ -178,6 +215,30 @@ mod tests {
             assert!(!first(&|r| 4.0 - 0.1 * r + 0.01 * r * r), "next to even");
             assert!(!first(&|r| 1.0 + r * r) && !first(&|_| 1.0));
         }
+    }
+
+    /// Ten segments of a line of length 2, the material changes at 1: `pressure` is by the distance from there, before it negative.
+    fn grows_at_joint(joint: f64, pressure: impl Fn(f64) -> f64) -> bool {
+        let mut contact = contact(&blocks(pair(MultiplierSpace::P0, 10), |_| Point::zeros(), Vec::new()), Known::default());
+        contact.joints = vec![contact.boundary.parameter_at(joint)];
+        let middles = contact.boundary.arcs().windows(2).map(|arcs| 0.5 * (arcs[0] + arcs[1]) - 1.0);
+        let values: Vec<f64> = middles.map(pressure).collect();
+        let active: Vec<bool> = values.iter().map(|&p| p > 0.0).collect();
+        let pressure = ContactPressure { contact: &contact, values: &values, active: &active };
+        pressure.zones().iter().any(|zone| pressure.grows_at_joint(zone).is_some())
+    }
+
+    #[test]
+    fn a_pressure_grows_where_materials_meet_if_it_does_so_on_either_side() {
+        let power = |r: f64| r.abs().powf(-0.1);
+        let sides = |r: f64, [before, behind]: [f64; 2]| if r < 0.0 { before } else { behind };
+        assert!(grows_at_joint(1.0, power));
+        assert!(grows_at_joint(1.0, |r| sides(r, [0.1, power(r)])) && grows_at_joint(1.0, |r| sides(r, [power(r), 0.1])));
+        assert!(grows_at_joint(1.0, |r| sides(r, [-1.0, power(r)])), "one side is open");
+        assert!(grows_at_joint(0.97, |r| if r.abs() < 0.15 { 0.5 } else { power(r) }), "its own segment says nothing");
+        assert!(!grows_at_joint(1.0, |r| sides(r, [0.01, 6.0])), "a jump between two even pressures");
+        assert!(!grows_at_joint(1.0, |r| 1.0 - r * r), "the middle of a round contact");
+        assert!(!grows_at_joint(1.0, |r| 4.0 * (r - 0.9).abs().powf(-0.5) + power(r)), "far below the largest");
     }
 
     #[test]

@@ -15,6 +15,8 @@ pub struct ZoneErrors {
     pub stress_at_peak: [f64; 2],
     /// λ against its reconstruction.
     pub roughness: Option<Roughness>,
+    /// Whether the material of a body changes in the middle of the zone.
+    pub has_joint: bool,
 }
 
 /// One for each zone; `points` are those of [`super::Evaluation::traces`].
@@ -43,6 +45,7 @@ pub fn zone_errors(contact: &Contact, lambda: &[f64], zones: &[Zone], points: &[
             stress_inside: apart(&|arc| zone.has_inside(arc)),
             stress_at_peak: apart(&is_near),
             roughness: roughness(&contact.boundary, &contact.multipliers, lambda, zone),
+            has_joint: contact.joints.iter().any(|&joint| zone.has_in_its_middle(boundary.arc(joint))),
         }
     };
     zones.iter().map(one).collect()

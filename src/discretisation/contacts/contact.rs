@@ -36,6 +36,8 @@ pub struct Contact {
     pub bodies: [usize; 2],
     /// Part of each body beside its boundary; the softest one if there are several.
     pub parts: [usize; 2],
+    /// Parameters of Γ_C at which the material of a body changes.
+    pub joints: Vec<f64>,
     /// Edges of body 1 and of body 2 whose macro triangle this rank owns, where contact is modelled.
     pub edges: [Vec<BoundaryEdge>; 2],
     /// Smallest ratio of a segment's length to the edges of the softer body that it meets.
@@ -130,6 +132,7 @@ impl Contact {
         let safe_ratio = safe_ratio_of(scene.order, pair.space, &all);
         let multipliers = Multipliers::new(pair.space, &boundary);
         let moduli = materials.moduli(&boundary, &all);
+        let joints = materials.joints(&boundary, &all, numbering.level);
         let modulus_of = |i: usize| multipliers.mean_beside(i, &moduli);
         let multiplier_moduli: Vec<f64> = (0..multipliers.count()).map(modulus_of).collect();
         let (multipliers, jumps) = if is_stabilised(pair, segment_ratio < SHORT * safe_ratio) {
@@ -158,6 +161,7 @@ impl Contact {
             multiplier_moduli,
             bodies,
             parts: materials.softest,
+            joints,
             edges,
             segment_ratio,
             edge_lengths,

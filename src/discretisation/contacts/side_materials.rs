@@ -6,7 +6,8 @@
 
 use crate::contact::ContactBoundary;
 use crate::discretisation::scene::Scene;
-use crate::mesh::BoundaryEdge;
+use crate::mesh::{BoundaryEdge, Level};
+use std::collections::{HashMap, HashSet};
 
 /// Young's moduli of the parts beside both boundaries of a contact; most boundaries have one part.
 pub struct SideMaterials<'s> {
@@ -15,6 +16,8 @@ pub struct SideMaterials<'s> {
     extremes: [[usize; 2]; 2],
     /// The softest part beside each boundary.
     pub softest: [usize; 2],
+    /// Vertices of either boundary at which the material of the body changes.
+    joints: HashSet<u32>,
 }
 
 impl<'s> SideMaterials<'s> {
@@ -28,7 +31,15 @@ impl<'s> SideMaterials<'s> {
             parts.sort_by(|&a, &b| scene.young_of(a).total_cmp(&scene.young_of(b)));
             [parts[0], parts[parts.len() - 1]]
         });
-        Self { scene, extremes, softest: extremes.map(|[softest, _]| softest) }
+        let joints = sides.iter().flat_map(|edges| joints(scene, edges)).collect();
+        Self { scene, extremes, softest: extremes.map(|[softest, _]| softest), joints }
+    }
+
+    /// Parameters of Γ_C at which the material of a body changes.
+    pub fn joints(&self, boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], level: Level) -> Vec<f64> {
+        let vertex = |edge: &BoundaryEdge| edge.nodes[0].vertex(&self.scene.mesh, level);
+        let starts_there = |edge: &&BoundaryEdge| vertex(edge).is_some_and(|vertex| self.joints.contains(&vertex));
+        edges.iter().flatten().filter(starts_there).map(|edge| boundary.foot(edge.points[0])).collect()
     }
 
     /// The moduli by which the softer body is told, whose edges rule the length of the segments. Where one body is softer here
@@ -64,4 +75,25 @@ impl<'s> SideMaterials<'s> {
         }
         found.into_iter().map(|young| if young.is_finite() { young } else { least }).collect()
     }
+}
+
+/// Vertices at which two of the macro edges of a boundary meet, with different materials beside them.
+fn joints(scene: &Scene, edges: &[u32]) -> Vec<u32> {
+    let mesh = &scene.mesh;
+    let part_beside = |edge: u32| mesh.triangles[mesh.beside(edge).0 as usize].part as usize;
+    if edges.iter().all(|&edge| part_beside(edge) == part_beside(edges[0])) {
+        return Vec::new();
+    }
+    let mut beside: HashMap<u32, usize> = HashMap::new();
+    let mut found = Vec::new();
+    for &edge in edges {
+        let part = part_beside(edge);
+        for vertex in mesh.edges[edge as usize].vertices {
+            let other = *beside.entry(vertex).or_insert(part);
+            if !scene.part(part).is_alike(scene.part(other)) {
+                found.push(vertex);
+            }
+        }
+    }
+    found
 }

@@ -41,6 +41,16 @@ impl EdgeNode {
         numbering.edge_node(mesh, self.edge, self.position as usize)
     }
 
+    /// The vertex that it lies at; nothing between both.
+    pub fn vertex(self, mesh: &MacroMesh, level: Level) -> Option<u32> {
+        let vertices = mesh.edges[self.edge as usize].vertices;
+        match self.position as usize {
+            0 => Some(vertices[0]),
+            last if last == level.intervals => Some(vertices[1]),
+            _ => None,
+        }
+    }
+
     /// Undeformed position of the node (length).
     pub fn place(self, mesh: &MacroMesh, numbering: &Numbering) -> Point {
         mesh.edge_position(self.edge, self.fraction(mesh, numbering))

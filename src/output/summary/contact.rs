@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::numbers::numbers;
 use crate::contact::zone_counts;
+use crate::geometry::Coordinates;
 
 /// One contact.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -90,9 +91,26 @@ pub struct ContactTrust {
 }
 
 impl ContactSummary {
-    /// Whether λ grows without bound towards an end of a zone that anyone would look at, as far as the meshes tell.
+    /// Whether λ grows without bound on a zone that anyone would look at, as far as the meshes tell.
     pub fn is_singular(&self) -> bool {
-        self.zones.iter().any(|zone| zone.singular == Some(true) && zone.counts(&self.zones))
+        self.singular_zones().next().is_some()
+    }
+
+    /// Whether it does so towards an end of the contact boundary.
+    pub fn is_singular_at_end(&self) -> bool {
+        self.singular_zones().any(|zone| zone.singular_at.is_none())
+    }
+
+    /// Where it does so, in words: towards an end, or at a point at which materials meet.
+    pub fn singular_words(&self) -> Option<String> {
+        self.singular_zones().next().map(|zone| match zone.singular_at {
+            Some(place) => format!("at {}, where an edge between two materials ends", Coordinates(place.into())),
+            None => "towards an end".into(),
+        })
+    }
+
+    fn singular_zones(&self) -> impl Iterator<Item = &ZoneSummary> {
+        self.zones.iter().filter(|zone| zone.singular == Some(true) && zone.counts(&self.zones))
     }
 
     /// Length of all intervals in contact.
@@ -128,8 +146,11 @@ pub struct ZoneSummary {
     pub peak: Option<f64>,
     /// Whether its largest pressure lies beside an end of the contact boundary, in the tenth that `whole` leaves out.
     pub peak_at_end: Option<bool>,
-    /// Whether λ grows without bound towards an end of the contact boundary, as far as can be seen.
+    /// Whether λ grows without bound towards an end of the contact boundary, or where materials meet, as far as can be seen.
     pub singular: Option<bool>,
+    /// Where materials meet and λ grows without bound.
+    #[serde(default, deserialize_with = "numbers")]
+    pub singular_at: Option<[f64; 2]>,
     /// Whether it lies at an end of the contact boundary where one body has a corner and the other goes on.
     pub corner: Option<bool>,
 }

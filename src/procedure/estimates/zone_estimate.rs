@@ -134,13 +134,16 @@ struct Signs {
     left: Option<f64>,
     /// How coarse the segments are.
     rough: Option<f64>,
+    /// Whether the material of a body changes there.
+    has_joint: bool,
 }
 
 impl Signs {
-    /// The smaller one of stress and difference, but no less than the segments allow.
+    /// The smaller one of stress and difference, the larger one beside λ without bound, but no less than the segments allow.
     fn error(&self) -> Option<f64> {
-        let smaller = [self.stress, self.left].into_iter().flatten().reduce(f64::min);
-        smaller.zip(self.rough).map(|(error, rough)| error.max(rough))
+        let chosen = if self.has_joint { f64::max } else { f64::min };
+        let error = [self.stress, self.left].into_iter().flatten().reduce(chosen);
+        error.zip(self.rough).map(|(error, rough)| error.max(rough))
     }
 }
 
@@ -152,6 +155,7 @@ impl ZoneEstimate {
             stress: geometric_mean(stress),
             left: last.and_then(|last| last.left(before, space, left)),
             rough: errors.roughness.map(rough).filter(|rough| rough.is_finite()),
+            has_joint: errors.has_joint,
         };
         let middle = signs(errors.stress, |zone| zone.pressure, |rough| rough.middle);
         let inside = signs(errors.stress_inside, |zone| zone.inside, |rough| rough.inside);
@@ -208,6 +212,7 @@ mod tests {
             stress_inside: [stress; 2],
             stress_at_peak: [stress; 2],
             roughness: Some(Roughness { middle, inside: middle, peak: 0.01 }),
+            has_joint: false,
         }
     }
 
@@ -229,6 +234,14 @@ mod tests {
         assert!((pressure(0.02, 1.0, 0.05) - 0.05).abs() < 1e-12);
         assert!((pressure(0.5, 0.1, 0.01) - 0.058).abs() < 1e-12, "bent bodies");
         assert!((pressure(2.0, 0.01, 0.01) - 0.04).abs() < 1e-12, "a difference that is small by luck");
+    }
+
+    #[test]
+    fn where_materials_meet_the_larger_sign_counts() {
+        let joint = ZoneErrors { has_joint: true, ..errors(0.02, 0.01) };
+        let found = |last| ZoneEstimate::new(MultiplierSpace::P0, &joint, [Some(&difference(last)), None]).pressure;
+        assert!(found(0.1).is_some_and(|error| (error / MARGIN - 0.058).abs() < 1e-12));
+        assert!(found(0.01).is_some_and(|error| (error / MARGIN - 0.02).abs() < 1e-12));
     }
 
     #[test]

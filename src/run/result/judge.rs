@@ -6,6 +6,7 @@ use crate::run::Run;
 use crate::run::verdict::no_result::no_result;
 use crate::run::verdict::trust;
 use crate::run::verdict::unresolved::unresolved;
+use std::collections::BTreeSet;
 
 impl Run<'_> {
     /// Expected values and trust: the status, and the reason so far. `missed` are values that the case expects.
@@ -51,9 +52,11 @@ pub fn remarks(summary: &Summary) -> String {
         remarks += &format!("; estimated error {error:.1e} in the energy norm");
     }
     let singular = names(&ContactSummary::is_singular);
+    let places = summary.contact.values().filter_map(ContactSummary::singular_words).collect::<BTreeSet<_>>();
     if summary.status == Status::Converged && !singular.is_empty() {
         remarks += &format!(
-            "; towards an end of contact {singular} λ grows without bound, as far as the meshes tell: its largest value says nothing"
+            "; λ of contact {singular} grows without bound {}, as far as the meshes tell: its largest value says nothing",
+            listed(&places.into_iter().collect::<Vec<_>>())
         );
     }
     let idle = names(&|contact| contact.closed.as_ref().is_some_and(Vec::is_empty));

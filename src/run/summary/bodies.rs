@@ -1,7 +1,7 @@
 //! The largest stress of each body.
 
 use crate::case::Case;
-use crate::output::summary::{BodySummary, ContactSummary, Status, Summary};
+use crate::output::summary::{BodySummary, ContactSummary, Status, Summary, listed};
 use crate::procedure::Solved;
 use crate::recovery::Evaluation;
 use crate::run::outcome::RunError;
@@ -19,8 +19,14 @@ pub fn largest_stresses(
     (summary, status): (&Summary, Status),
 ) -> Result<Vec<(String, BodySummary)>, RunError> {
     let scene = &found.problem.scene;
-    let grows = |name: &String| summary.contact.get(name).is_some_and(ContactSummary::is_singular);
+    let grows = |name: &String| summary.contact.get(name).is_some_and(ContactSummary::is_singular_at_end);
+    let is_distrusted = |name: &String| summary.contact.get(name).is_some_and(|contact| contact.judged.trust == Some(false));
     let grows: Vec<bool> = found.problem.contacts.iter().map(|contact| grows(&contact.pair.name)).collect();
+    let distrusted = |body: usize| {
+        let own = found.problem.contacts.iter().filter(|contact| contact.bodies.contains(&body));
+        let names = own.map(|contact| &contact.pair.name).filter(|name| is_distrusted(name)).collect::<Vec<_>>();
+        (!names.is_empty()).then(|| listed(&names))
+    };
     let before = |part: usize| solved.coarse_stress.as_ref().map(|all| all[part]);
     let own = found.stress_peaks(&grows)?.into_iter().zip(&scene.mesh.parts).enumerate();
     let own = own.filter(|(_, (_, part))| !scene.is_rigid(part.body as usize)).map(|(at, (peak, part))| PartStress {
@@ -29,6 +35,7 @@ pub fn largest_stresses(
         now: peak.von_mises,
         before: before(at),
         unbounded: peak.unbounded.map(|place| place.to_string()),
+        distrusted: distrusted(part.body as usize),
         place: peak.place.into(),
         displacement: peak.displacement.into(),
     });
@@ -76,6 +83,7 @@ mod tests {
             now,
             before: Some(now),
             unbounded: unbounded.map(String::from),
+            distrusted: None,
             place: [now, 0.0],
             displacement: [0.0, 1.0],
         };

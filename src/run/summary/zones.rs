@@ -73,7 +73,8 @@ impl<'a> Zones<'a> {
             let (zone, (found, at_ends)) = (&zones[k], &estimates[k]);
             let before = |end: usize| at_ends.map(|values| values.map(|values| values[end]));
             let grows = (0..2).any(|end| pressure.grows_towards(zone, end, before(end)));
-            let singular = is_singular(grows, corner_error);
+            let joint = pressure.grows_at_joint(zone).map(|t| contact.boundary.point(t).into());
+            let singular = is_singular(grows, corner_error) || joint.is_some();
             let edges = contact.edges_on(zone);
             // All signs of a narrow zone may be small beside its error, unless they are very small.
             let wide = edges >= EDGES.value && contact.segments_on(zone) >= LEAST_SEGMENTS;
@@ -92,6 +93,7 @@ impl<'a> Zones<'a> {
                 peak: peak_error(found.peak.filter(tells), singular),
                 peak_at_end: Some(pressure.peaks_at_end(zone)),
                 singular: Some(singular),
+                singular_at: joint,
                 corner: Some((0..2).any(|end| pressure.ends_at_a_corner(&problem.scene.mesh, zone, end))),
             }
         };

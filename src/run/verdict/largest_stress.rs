@@ -18,14 +18,16 @@ pub struct PartStress {
     pub now: f64,
     /// The same on the refinement before; nothing if none was solved.
     pub before: Option<f64>,
-    /// Where the stress has no bound that is near, in words.
+    /// Where the stress has no bound that is near, or is as large soon, in words.
     pub unbounded: Option<String>,
+    /// Contacts of the body whose pressure is not trusted, in words.
+    pub distrusted: Option<String>,
 }
 
 /// What speaks against a largest stress; nothing if it can be believed. `most` is the largest of all bodies, `finer` what makes the
 /// mesh finer.
 pub fn stress_doubt(status: Status, stress: &PartStress, most: f64, finer: &str) -> Option<String> {
-    let PartStress { now, before, unbounded, .. } = stress;
+    let PartStress { now, before, unbounded, distrusted, .. } = stress;
     match status {
         Status::NotConverged | Status::Interrupted => return Some("the run has not converged".into()),
         Status::Unresolved => return Some("the run is not resolved".into()),
@@ -36,6 +38,9 @@ pub fn stress_doubt(status: Status, stress: &PartStress, most: f64, finer: &str)
     }
     if let Some(place) = unbounded {
         return Some(format!("{place}, where the stress has no bound: it grows with each mesh"));
+    }
+    if let Some(contacts) = distrusted {
+        return Some(format!("the pressure of contact {contacts} is not trusted"));
     }
     let Some(before) = before else {
         return Some(format!("nothing tells its error, since no coarser refinement was solved before; {finer}"));
@@ -61,6 +66,9 @@ mod tests {
         assert_eq!(doubt(Some(80.0), None, 100.0), "on the refinement before it differs by 20.0 %, at most 5.0 % wanted; refine");
         let words = "at the corner (2, 1), where the stress has no bound: it grows with each mesh";
         assert_eq!(doubt(Some(100.0), Some("at the corner (2, 1)"), 100.0), words);
+        let pressed = PartStress { now: 1.0, before: Some(1.0), distrusted: Some("seam, foot".into()), ..PartStress::default() };
+        let doubted = stress_doubt(Status::Converged, &pressed, 1.0, "").unwrap_or_default();
+        assert_eq!(doubted, "the pressure of contact seam, foot is not trusted");
         assert!(doubt(None, None, 100.0).contains("nothing tells its error"));
         assert_eq!(doubt(None, Some("at a corner"), 1e9), "", "it is rounding beside that of other bodies");
     }

@@ -20,9 +20,6 @@ use contact::verdict;
 use std::collections::BTreeMap;
 use told::{TRUSTED, Verdict, in_order, unknown, unreliable};
 
-/// What is said of a contact whose largest pressure means nothing.
-const GROWS: &str = "λ grows without bound towards an end";
-
 /// What is said of the pressures of a run.
 #[derive(Debug, Default)]
 pub struct Judgement {
@@ -41,8 +38,9 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
     let verdicts: BTreeMap<String, Verdict> = judged.collect();
     for (name, contact) in &mut summary.contact {
         contact.judged = verdicts.get(name).map(Verdict::trust).unwrap_or_default();
-        if contact.judged.verdict.as_deref() == Some(TRUSTED) && contact.is_singular() {
-            contact.judged.verdict = Some(format!("{TRUSTED}, but for the largest value: {GROWS}"));
+        let singular = contact.singular_words().filter(|_| contact.judged.verdict.as_deref() == Some(TRUSTED));
+        if let Some(place) = singular {
+            contact.judged.verdict = Some(format!("{TRUSTED}, but for the largest value: λ grows without bound {place}"));
         }
     }
     let names = in_order(summary, case, &verdicts);

@@ -268,8 +268,8 @@ fn scene(count: usize, force: impl Fn(usize) -> f64, edges: impl Fn(usize) -> f6
 /// The verdict on a pressure that is to be trusted, but grows towards an end on each mesh.
 #[test]
 fn a_largest_pressure_that_means_nothing_is_told_in_the_verdict() {
-    let verdict = |singular| {
-        let zones = vec![ZoneSummary { singular: Some(singular), ..zone() }];
+    let verdict = |singular, singular_at| {
+        let zones = vec![ZoneSummary { singular: Some(singular), singular_at, ..zone() }];
         let (force, nothing) = (Some(5.0), Some(0.0));
         let contact =
             ContactSummary { zones, force, unresolved_force: nothing, missing_force: nothing, ..ContactSummary::default() };
@@ -278,9 +278,11 @@ fn a_largest_pressure_that_means_nothing_is_told_in_the_verdict() {
         let judged = summary.contact["seam"].judged.clone();
         (judged.trust, judged.verdict.unwrap_or_default())
     };
-    assert_eq!(verdict(false), (Some(true), "trusted".into()));
-    let words = "trusted, but for the largest value: λ grows without bound towards an end";
-    assert_eq!(verdict(true), (Some(true), words.into()));
+    assert_eq!(verdict(false, None), (Some(true), "trusted".into()));
+    let words = "trusted, but for the largest value: λ grows without bound";
+    assert_eq!(verdict(true, None), (Some(true), format!("{words} towards an end")));
+    let joint = format!("{words} at (1, 0.5), where an edge between two materials ends");
+    assert_eq!(verdict(true, Some([1.0, 0.5])), (Some(true), joint));
 }
 
 #[test]
