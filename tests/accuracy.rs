@@ -80,6 +80,31 @@ fn bars_get_the_accuracy_on_the_same_meshes_on_all_ranks() {
     }
 }
 
+/// Forces and pressures of a pin in a heated plate: dual solutions that were solved to 1e-3 marked other triangles on two ranks than on
+/// one.
+#[test]
+fn goals_that_weigh_errors_mark_the_same_triangles_on_all_ranks() {
+    let mesh = include_str!("meshes/pin_in_plate.msh");
+    let case = r#"
+mesh = { file = "mesh.msh", order = 2 }
+body.plate = { young = 99017.187, poisson = 0.3, expansion = 3e-5, temperature = "15*x*y" }
+body.pin = { young = 3092.319, poisson = 0.45, body_force = [4.4155, -1.1255] }
+geometry."plate.in" = { curves = ["plate.in"], circle = { centre = [0, 0], radius = 1.0 } }
+geometry."plate.out" = { curves = ["plate.out"], circle = { centre = [0, 0], radius = 3.0 } }
+geometry."pin.out" = { curves = ["pin.out"], circle = { centre = [0, 0], radius = 1.0 } }
+geometry."pin.in" = { curves = ["pin.in"], circle = { centre = [0, 0], radius = 0.3 } }
+support.rim = { on = "plate.out", ux = 0, uy = 0 }
+support.turn = { body = "pin", mean = true, angle = 0 }
+contact.c = { between = ["pin.out", "plate.in"] }
+accuracy = { energy = 1e-2, force = 1e-3, pressure = 1e-2, max_unknowns = 60000 }
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), mesh, case);
+    let [one, two, three] = RANKS.map(|ranks| sizes(&Run::file(&file).set("solver.tolerance", 1e-11).ranks(ranks).converged()));
+    assert_eq!((&two, &three), (&one, &one));
+    assert!(one.len() > 1, "{one:?}");
+}
+
 #[test]
 fn a_run_that_begins_with_the_adapted_mesh_is_there_at_once() {
     let (_folder, file) = bars();

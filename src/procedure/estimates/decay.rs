@@ -9,6 +9,9 @@ const FACTORS: [f64; 2] = [1.0 / 80.0, 0.75];
 /// to P1 at a corner.
 const LOCAL_FACTORS: [f64; 2] = [1.0 / 16.0, 0.5];
 
+/// Share of the whole square below which that of a macro triangle may be rounding, which falls as it will.
+const ROUNDING: f64 = 1e-14;
+
 /// The factor q of squares with q/(1 - q) = .7², for a mesh that is adapted by one difference.
 const ONE_FALLS: f64 = 0.33;
 
@@ -22,8 +25,9 @@ pub const SHARES: [f64; 2] = [0.6, 0.0];
 /// where that is all there is.
 pub fn falls(last: &Difference, before: Option<&Difference>, shares_left: &[Option<f64>]) -> Vec<f64> {
     let by_share = |share: f64| (share / (1.0 + share)).clamp(LOCAL_FACTORS[0], LOCAL_FACTORS[1]);
+    let least = ROUNDING * last.energy;
     let fall = |(at, now): (usize, &f64)| match before.and_then(|before| before.of_triangles.get(at)) {
-        Some(then) if *then > 0.0 => (now / then).clamp(LOCAL_FACTORS[0], LOCAL_FACTORS[1]),
+        Some(then) if *then > 0.0 => (now.max(least) / then.max(least)).clamp(LOCAL_FACTORS[0], LOCAL_FACTORS[1]),
         Some(_) => LOCAL_FACTORS[1],
         None => shares_left.get(at).copied().flatten().map_or(ONE_FALLS, by_share),
     };

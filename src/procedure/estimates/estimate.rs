@@ -239,6 +239,17 @@ mod tests {
         assert_eq!(falls, [ENERGY_FALLS; 2]);
     }
 
+    /// Ranks round otherwise: where there is nothing to fall, all of them mark alike.
+    #[test]
+    fn rounding_falls_by_no_factor_of_its_own() {
+        let two = |first: f64, second: f64| Difference { energy: first, of_triangles: vec![first, second], ..difference(1.0) };
+        let falls = |rounding: [f64; 2]| {
+            let differences = [two(8.0, rounding[0]), two(2.0, rounding[1])];
+            Estimate::new(&differences, Vec::new(), Order::P2, 0.0, |own| own).falls
+        };
+        assert_eq!(falls([3e-28, 1e-29]), falls([1e-29, 3e-28]));
+    }
+
     #[test]
     fn ends_that_stay_are_no_better_than_segments_are_short() {
         let ends =
