@@ -455,7 +455,9 @@ fn a_folder_is_of_one_run() {
         }
         let won = ended.iter().filter(|(code, _, _)| *code == Some(0)).count();
         assert!(won == 1 || force && won > 1, "{won} runs have won");
-        assert_eq!(names_in(folder.path()), ["result"]);
+        // Those that came too late lie beside it.
+        let late = ended.iter().filter(|(code, _, _)| *code == Some(1)).count();
+        assert_eq!(names_in(folder.path()).len(), 1 + late, "{:?}", names_in(folder.path()));
         let read = |name: &str| std::fs::read_to_string(folder.path().join("result").join(name)).expect(name);
         let summary: Value = serde_json::from_str(&read("summary.json")).expect("JSON");
         let load = summary["contact"]["seam"]["force"].as_f64().expect("a force") / 2.0;

@@ -104,6 +104,18 @@ fn files_that_are_limited_end_a_run_in_order() {
     assert_eq!(names_in(folder.path()), Vec::<String>::new(), "something is left");
 }
 
+/// Fields are the largest files: a run that has no room for them has a result without.
+#[test]
+fn a_result_for_which_there_is_no_room_has_no_fields() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let run = format!("{MEZHA} run {} --set mesh.refine=4 --out result --quiet", case("patch_flat/case.toml"));
+    let (code, _, errors) = shell(folder.path(), &format!("ulimit -f 300 && exec {run}"));
+    assert_eq!(code, Some(0), "{errors}");
+    assert!(errors.contains("mezha: warning: there are no fields in the result: cannot write"), "{errors}");
+    let names = names_in(&folder.path().join("result"));
+    assert!(names.contains(&"summary.json".into()) && !names.contains(&"fields.vtu".into()), "{names:?}");
+}
+
 /// Where a system is factorised and small, each rank does so by itself: MUMPS adds in the order in which messages come.
 #[test]
 fn the_same_command_gives_the_same_digits() {

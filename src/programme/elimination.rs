@@ -151,8 +151,9 @@ fn factorised(entries: StiffnessEntries, load: Vec<f64>, kernel: Kernel, first: 
     }
     let kept = |entry: &Triplet<usize, usize, f64>| Some(Triplet::new(places[entry.row]?, places[entry.col]?, entry.val));
     let kept: StiffnessEntries = entries.iter().filter_map(kept).collect();
-    let words = |what: String| SystemError::Case(format!("the coarsest mesh cannot be factorised ({what})"));
-    let matrix = SparseColMat::try_new_from_triplets(count, count, &kept).map_err(|error| words(format!("{error:?}")))?;
-    let factor = matrix.sp_cholesky(Side::Lower).map_err(|error| words(format!("{error:?}")))?;
+    let words = "the stiffness on the coarsest mesh is singular but for rounding: a spring, or a part, is so soft beside the others that it does not count; make it stiffer, or leave it out";
+    let matrix = SparseColMat::try_new_from_triplets(count, count, &kept);
+    let factor = matrix.ok().and_then(|matrix| matrix.sp_cholesky(Side::Lower).ok());
+    let factor = factor.ok_or_else(|| SystemError::Case(words.into()))?;
     Ok(EliminatedBlock { factor: Some(factor), places, count, load, kernel, first })
 }

@@ -121,9 +121,8 @@ impl ResultFolder {
     /// Gives the whole result its name. A result that was there is removed; files in it that it has not written are carried over.
     ///
     /// # Errors
-    /// [`OutputError::Overtaken`] if the target is no longer what it was at the start; [`OutputError::Remains`] if the new result
-    /// is in its place, and not all of the old one could be removed; [`OutputError::Elsewhere`] if it is in another place, since the
-    /// operating system refuses this one.
+    /// [`OutputError::Elsewhere`] if it is in another place, since the operating system refuses this one, or it is no longer what it
+    /// was at the start; [`OutputError::Remains`] if the new result is in its place, and not all of the old one could be removed.
     pub fn commit(mut self) -> Result<(), OutputError> {
         let placed = match &self.replaced {
             _ if self.is_mounted => self.move_in(),
@@ -131,7 +130,7 @@ impl ResultFolder {
             _ => self.appear(),
         };
         let left = match placed {
-            Err(refusal @ OutputError::Io { .. }) => return self.elsewhere(refusal),
+            Err(refusal @ (OutputError::Io { .. } | OutputError::Overtaken(_))) => return self.elsewhere(refusal),
             placed => placed?,
         };
         self.committed = true;
@@ -141,7 +140,7 @@ impl ResultFolder {
         })
     }
 
-    /// Gives the result, whose target is refused, the name of its temporary folder without what hides it: nothing solved is lost.
+    /// Gives the result, whose target is refused or taken, the name of its temporary folder without what hides it: nothing solved is lost.
     fn elsewhere(mut self, refusal: OutputError) -> Result<(), OutputError> {
         let hidden = self.temporary.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let place = self.temporary.with_file_name(hidden.trim_start_matches('.').trim_end_matches(".partial"));

@@ -147,7 +147,7 @@ fn files_and_nameless_targets_are_refused() {
 
 /// Two results that were begun at the same time: the first that ends stays, whether it replaces one or not.
 #[test]
-fn the_second_is_told() {
+fn the_second_is_told_and_lies_beside() {
     for force in [false, true] {
         let root = tempfile::tempdir().unwrap();
         let out = root.path().join("bars");
@@ -162,9 +162,8 @@ fn the_second_is_told() {
         assert_ne!(first.temporary(), second.temporary());
         first.commit().unwrap();
         let refusal = second.commit().unwrap_err();
-        assert!(matches!(refusal, OutputError::Overtaken(_)), "{refusal}");
-        assert_eq!(case_in(&out), "first");
-        assert_eq!(names(root.path()), ["bars"]);
+        assert_eq!((case_in(&out), case_in(&overtaken(refusal))), ("first".into(), "second".into()));
+        assert_eq!(names(root.path()).len(), 2);
     }
 }
 
@@ -180,6 +179,14 @@ fn a_result_that_is_refused_is_kept_elsewhere() {
     let OutputError::Elsewhere { place, .. } = &refusal else { panic!("{refusal}") };
     assert!(case_in(place) == "second" && refusal.to_string().contains("nothing is lost"), "{refusal}");
     assert_eq!((case_in(&out), names(root.path()).len()), ("first".into(), 2));
+}
+
+/// Where a result lies whose place another one has taken.
+fn overtaken(refusal: OutputError) -> PathBuf {
+    match refusal {
+        OutputError::Elsewhere { place, source } if matches!(*source, OutputError::Overtaken(_)) => place,
+        refusal => panic!("{refusal}"),
+    }
 }
 
 /// Files move into a target that cannot be renamed, those of the result before go, and others stay.
@@ -219,9 +226,10 @@ fn the_second_in_a_mount_point_is_told() {
         folder
     });
     first.commit().unwrap();
-    let refusal = second.commit().unwrap_err();
-    assert!(matches!(refusal, OutputError::Overtaken(_)), "{refusal}");
-    assert_eq!((case_in(&out), names(&out)), ("first".into(), vec!["summary.json".into()]));
+    let place = overtaken(second.commit().unwrap_err());
+    assert_eq!((case_in(&out), case_in(&place)), ("first".into(), "second".into()));
+    let own = place.file_name().and_then(|name| name.to_str()).map(String::from).unwrap();
+    assert_eq!(names(&out), [own, "summary.json".into()]);
 }
 
 #[test]
@@ -269,8 +277,12 @@ fn a_race_has_whole_results_only() {
             write_case(&folder, &text);
             match folder.commit() {
                 Ok(()) => won += 1,
-                Err(OutputError::Overtaken(_)) => {}
-                Err(error) => panic!("{error}"),
+                Err(refusal) => {
+                    let place = overtaken(refusal);
+                    // Of three that meet in one moment one may have the place of another.
+                    assert_eq!(case_in(&place), fs::read_to_string(place.join("contact_a.csv")).unwrap());
+                    fs::remove_dir_all(place).unwrap();
+                }
             }
         }
         won

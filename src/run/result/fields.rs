@@ -4,10 +4,14 @@ use crate::element::{Order, von_mises};
 use crate::mesh::lattice::{self, Triangle};
 use crate::output::plot::{ContactZoom, DrawnEdge, Facet};
 use crate::output::vtk::{Piece, PieceNode, write_parallel, write_piece};
+use crate::petsc::Session;
 use crate::recovery::Evaluation;
 use crate::run::outcome::RunError;
 use std::collections::HashMap;
 use std::path::Path;
+
+/// The file that holds the pieces of several ranks together.
+const OF_ALL: &str = "fields.pvtu";
 
 /// Facets of the figure at most, as far as triangles of the mesh file may be shown whole; of more of these than the second some
 /// are left out, and their places are empty.
@@ -21,13 +25,23 @@ const COARSE: usize = 4;
 /// node.
 pub fn write(folder: &Path, found: &Evaluation, stress: impl Fn(usize, usize) -> [f64; 4]) -> Result<(), RunError> {
     let session = found.session;
-    let name = |rank: usize| if session.size() == 1 { "fields.vtu".to_string() } else { format!("fields_{rank:04}.vtu") };
-    write_piece(&folder.join(name(session.rank())), &piece(found, stress))?;
+    write_piece(&folder.join(piece_name(session, session.rank())), &piece(found, stress))?;
     if session.size() > 1 && session.rank() == 0 {
-        let pieces: Vec<String> = (0..session.size()).map(name).collect();
-        write_parallel(&folder.join("fields.pvtu"), &pieces, found.problem.scene.is_heated())?;
+        let pieces: Vec<String> = (0..session.size()).map(|rank| piece_name(session, rank)).collect();
+        write_parallel(&folder.join(OF_ALL), &pieces, found.problem.scene.is_heated())?;
     }
     Ok(())
+}
+
+/// Removes what there is of the fields; every rank its own.
+pub fn remove(folder: &Path, session: &Session) {
+    let own = [Some(piece_name(session, session.rank())), (session.rank() == 0).then(|| OF_ALL.into())];
+    own.iter().flatten().for_each(|name| _ = std::fs::remove_file(folder.join(name)));
+}
+
+/// The file of the piece of a rank.
+fn piece_name(session: &Session, rank: usize) -> String {
+    if session.size() == 1 { "fields.vtu".to_string() } else { format!("fields_{rank:04}.vtu") }
 }
 
 /// The piece of this rank: its macro triangles. A node between two parts is there twice, for its stress has two values.

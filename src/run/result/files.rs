@@ -24,7 +24,7 @@ impl Run<'_> {
         let provenance = Some(self.origin.provenance.clone());
         let summary = Summary { time_s, memory_mib: memory(self.session), provenance, ..summary };
         let finished = interruption::finish(|folder, warnings| self.put_in_place(&summary, mesh, folder, warnings));
-        let overtaken = self.session.any(matches!(finished, Err(OutputError::Overtaken(_))));
+        let overtaken = self.session.any(matches!(finished, Err(OutputError::Overtaken(_) | OutputError::Elsewhere { .. })));
         let kind = if overtaken { RunError::Overtaken } else { RunError::Failed };
         self.session.agree(finished.map_err(|error| error.to_string())).map_err(kind)?;
         self.report.table(&summary);
@@ -84,7 +84,11 @@ impl Run<'_> {
         let stress = found.stress()?;
         let at_node = |part: usize, node: usize| stress.at(part, node);
         progress::write_files();
-        self.session.agree(fields::write(folder, found, at_node)).map_err(RunError::Failed)?;
+        if let Err(refusal) = self.session.agree(fields::write(folder, found, at_node)) {
+            // They are the largest files: where there is no room for them there may be for all others.
+            fields::remove(folder, self.session);
+            self.report.warn(&format!("there are no fields in the result: {refusal}"));
+        }
         if self.session.rank() == 0 {
             let curve = |name: &str| folder.join(format!("contact_{name}.vtu"));
             let shown: BTreeSet<&str> = summary.with_figures().into_iter().collect();
