@@ -22,7 +22,7 @@ const FUNCTIONS: &[&str] = &[
     "Mat(Create|SetSizes|SetType|Destroy|SetOption|AssemblyBegin|AssemblyEnd|ZeroEntries|Norm|GetInfo|Convert)",
     "Mat(SetValues|SetValuesBlocked|Mult|MultAdd|Residual|CreateVecs)",
     "Mat(GetLocalSize|GetSize|GetOwnershipRange)",
-    "MatXAIJSetPreallocation|MatCreateNest|MatNestGetISs",
+    "MatXAIJSetPreallocation|MatCreateNest|MatNestGetISs|MatCreateTranspose",
     "MatCreateShell|MatShell(SetOperation|GetContext)|PCShell(SetContext|GetContext|SetApply|SetDestroy|SetName)",
     // krylov, preconditioner
     "KSP(Create|Destroy|SetOptionsPrefix|GetOptionsPrefix|SetOperators|SetTolerances|SetFromOptions|SetUp|GetPC)",

@@ -9,8 +9,7 @@ use std::ops::Range;
 use std::ptr;
 
 /// A matrix whose rows lie in consecutive ranges on the ranks: sparse ([`Matrix::aij`]), two by two of others
-/// ([`Matrix::nest`]) or an action
-/// ([`Matrix::operator`], [`Matrix::transfer`]). It has one owner, who alone can change it; a nest and a solver keep references of
+/// ([`Matrix::nest`]), another one transposed ([`Matrix::transposed`]) or an action ([`Matrix::operator`]). It has one owner, who alone can change it; a nest and a solver keep references of
 /// PETSc's own to the matrices they are made of, and see their changes.
 pub struct Matrix {
     pub(super) raw: ffi::Mat,
@@ -44,6 +43,13 @@ impl Matrix {
         petsc!(MatXAIJSetPreallocation(raw, length(block), diagonal.as_ptr(), off_diagonal.as_ptr(), ptr::null(), ptr::null()))?;
         matrix.set_option(ffi::MatOption::MAT_NEW_NONZERO_ALLOCATION_ERR, true)?;
         Ok(matrix)
+    }
+
+    /// The transposed of this matrix, of which it has no entries of its own. **Collective**
+    pub fn transposed(&self) -> Result<Self> {
+        let mut raw = ptr::null_mut();
+        petsc!(MatCreateTranspose(self.raw, &mut raw))?;
+        Ok(Self::from_raw(&self.session, raw))
     }
 
     /// Takes over one reference to a matrix of PETSc's.

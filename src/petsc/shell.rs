@@ -16,16 +16,6 @@ pub trait Operator {
     /// `y = A x`.
     fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()>;
 
-    /// `y += A x`, for [`Matrix::transfer`].
-    fn multiply_add(&self, _x: &Vector, _y: &mut Vector) -> Result<()> {
-        unreachable!("a matrix that adds no products")
-    }
-
-    /// `y = Aᵀ x`, for [`Matrix::transfer`].
-    fn multiply_transpose(&self, _x: &Vector, _y: &mut Vector) -> Result<()> {
-        unreachable!("a matrix whose transposed is not known")
-    }
-
     /// Largest sum of magnitudes in a row of this rank, or of all.
     fn norm_infinity(&self) -> Result<f64> {
         unreachable!("a matrix whose norm is not known")
@@ -68,15 +58,6 @@ impl Matrix {
         Ok(matrix)
     }
 
-    /// The same of a matrix that also adds its products and knows those of its transpose. **Collective**
-    pub fn transfer(session: &Session, rows: usize, columns: usize, action: Box<dyn Operator>) -> Result<Self> {
-        let matrix = Self::operator(session, rows, columns, action)?;
-        matrix.set_operation(ffi::MatOperation::MATOP_MULT_ADD, unsafe { mem::transmute::<Three, Plain>(multiply_add) })?;
-        let transposed = unsafe { mem::transmute::<Two, Plain>(multiply_transpose) };
-        matrix.set_operation(ffi::MatOperation::MATOP_MULT_TRANSPOSE, transposed)?;
-        Ok(matrix)
-    }
-
     fn set_operation(&self, operation: ffi::MatOperation, function: Plain) -> Result<()> {
         petsc!(MatShellSetOperation(self.raw, operation, Some(function)))
     }
@@ -84,7 +65,6 @@ impl Matrix {
 
 type Plain = unsafe extern "C" fn();
 type Two = unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec) -> Code;
-type Three = unsafe extern "C" fn(ffi::Mat, ffi::Vec, ffi::Vec, ffi::Vec) -> Code;
 type Norm = unsafe extern "C" fn(ffi::Mat, ffi::NormType, *mut f64) -> Code;
 
 impl Preconditioner {
@@ -203,24 +183,6 @@ unsafe extern "C" fn drop_context(given: *mut c_void) -> Code {
 unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
     act_by(matrix, |action, session| {
         action.multiply(&Lent::new(session, x), &mut Lent::new(session, y))?;
-        petsc!(mezha_log_work(action.work()))
-    })
-}
-
-unsafe extern "C" fn multiply_add(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec, sum: ffi::Vec) -> Code {
-    act_by(matrix, |action, session| {
-        let mut target = Lent::new(session, sum);
-        if y != sum {
-            target.copy_from(&Lent::new(session, y))?;
-        }
-        action.multiply_add(&Lent::new(session, x), &mut target)?;
-        petsc!(mezha_log_work(action.work()))
-    })
-}
-
-unsafe extern "C" fn multiply_transpose(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
-    act_by(matrix, |action, session| {
-        action.multiply_transpose(&Lent::new(session, x), &mut Lent::new(session, y))?;
         petsc!(mezha_log_work(action.work()))
     })
 }

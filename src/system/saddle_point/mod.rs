@@ -18,7 +18,6 @@ mod coupling_rows;
 mod elimination;
 mod load;
 mod multiplier_blocks;
-mod transposed;
 
 pub use border_blocks::{BorderBlocks, BorderUnknown};
 pub use multiplier_blocks::SchurPattern;

@@ -2,7 +2,6 @@
 
 use super::augmentation::Augmentation;
 use super::coupling_rows::CouplingRows;
-use super::transposed::TransposedCoupling;
 use crate::contact::{DiagonalBlock, MultiplierSpace, SparseRows, jump_matrix};
 use crate::discretisation::{Contact, Discretisation, Form, Space, SystemError};
 use crate::geometry::Point;
@@ -10,7 +9,6 @@ use crate::mesh::each_once;
 use crate::petsc::{Index, Matrix, Session};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::rc::Rc;
 
 /// What the approximate Schur complement couples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,10 +48,10 @@ impl SchurPattern {
 pub struct MultiplierBlocks {
     /// `B̂ = s B`.
     pub coupling: Matrix,
-    /// `B̂ᵀ (I - D̂ Ĉ)`; without a jump term `B̂ᵀ` but for inactive multipliers, whose columns are zero either way.
+    /// `B̂ᵀ (I - D̂ Ĉ)`; without a jump term `B̂ᵀ`.
     pub transpose: Matrix,
-    /// Its columns, if it is known by what it does alone.
-    transposed: Option<Rc<TransposedCoupling>>,
+    /// Whether that has entries of its own: with a jump term, and in the plain form.
+    is_stored: bool,
     /// `-Ĉ`.
     pub corner: Matrix,
     /// `-(D̂⁻¹ + Ĉ)`.
@@ -104,17 +102,16 @@ impl MultiplierBlocks {
         };
         let columns: Vec<Vec<usize>> = (0..owners.len()).map(own_nodes).collect();
         let corner = if problem.jumps().next().is_some() { SchurPattern::Mixed } else { SchurPattern::Diagonal };
-        let (transpose, transposed) = if form == Form::Plain || owners.is_empty() {
-            (transpose_matrix(&columns, owners, own.len(), space, session)?, None)
-        } else {
-            let transposed = TransposedCoupling::new(&columns, &number, own.len(), space, session)?;
-            let action = Box::new(transposed.clone());
-            (Matrix::transfer(session, space.local_unknowns(), own.len(), action)?, Some(transposed))
+        let coupling = coupling_matrix(rows, &own, space, session)?;
+        let is_stored = form == Form::Plain || owners.is_empty() || problem.jumps().next().is_some();
+        let transpose = match is_stored {
+            true => transpose_matrix(&columns, owners, own.len(), space, session)?,
+            false => coupling.transposed()?,
         };
         Ok(Self {
-            coupling: coupling_matrix(rows, &own, space, session)?,
+            coupling,
             transpose,
-            transposed,
+            is_stored,
             corner: corner.matrix(own.len(), session)?,
             schur: pattern.matrix(own.len(), session)?,
             pattern,
@@ -148,19 +145,15 @@ impl MultiplierBlocks {
                 self.set_corner(problem, active, augmentation, i)?;
             }
             let column = corrected(rows, augmentation, &self.jumps, i);
-            if column.is_empty() && self.jumps[i].is_empty() {
+            if !self.is_stored || column.is_empty() && self.jumps[i].is_empty() {
                 continue;
             }
-            if let Some(transposed) = &self.transposed {
-                transposed.set(i, &column, scale, problem.finest());
-            } else {
-                let value =
-                    |node: &usize| column.binary_search_by_key(node, |entry| entry.0).map_or(Point::zeros(), |k| column[k].1);
-                entries.put(self.columns[i].iter().map(|node| (*node, value(node))), scale);
-                self.transpose.insert(entries.unknowns.as_flattened(), &at, entries.values.as_flattened())?;
-            }
+            let value = |node: &usize| column.binary_search_by_key(node, |entry| entry.0).map_or(Point::zeros(), |k| column[k].1);
+            entries.put(self.columns[i].iter().map(|node| (*node, value(node))), scale);
+            self.transpose.insert(entries.unknowns.as_flattened(), &at, entries.values.as_flattened())?;
         }
-        for matrix in [&mut self.coupling, &mut self.transpose, &mut self.corner, &mut self.schur] {
+        let stored = self.is_stored.then_some(&mut self.transpose);
+        for matrix in [&mut self.coupling, &mut self.corner, &mut self.schur].into_iter().chain(stored) {
             matrix.assemble()?;
         }
         Ok(())
