@@ -233,8 +233,36 @@ fn check_lists_what_acts() {
     assert!(!said.contains("nothing loads"), "{said}");
     let plate = told(&["load.top={ on = \"top\", rigid = true, force = [0, -3], ux = 0, angle = 0 }", "contact.seam.gap=-0.001"]);
     assert!(plate.contains("load top: stiff plate, force (0, -3)") && plate.contains("a gap of -0.001 is given"), "{plate}");
+    assert!(plate.contains("ux = 0, angle = 0"), "how a plate may move is told: {plate}");
+    // Forces of a case with a thickness are whole ones.
+    let plate = "load.top={ on = \"top\", rigid = true, force = [0, -3], moment = 2, ux = 0 }";
+    let thick = told(&["thickness=5", plate, "body.lower.body_force=[0, \"-3*x\"]", "units={ length = \"mm\", force = \"N\" }"]);
+    for words in [
+        "load top: stiff plate, force (0, -3) N, moment 2, ux = 0",
+        "load force in lower: (0, …) for each volume, resultant (0, -30) N",
+        "body lower: E = 7000 MPa",
+    ] {
+        assert!(thick.contains(words), "{words} in\n{thick}");
+    }
     let round = told(&["plane=\"axisymmetric\""]);
     assert!(round.contains("resultant (0, -12.57)"), "the whole disc: {round}");
+}
+
+/// Without a support the first thing to mend is the load: a hold would carry it unseen.
+#[test]
+fn a_load_that_opens_all_contacts_is_told_before_what_does_not_hold() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let free = GOOD.lines().filter(|line| !line.starts_with("support")).map(|line| format!("{line}\n")).collect::<String>();
+    let file = write_scene(folder.path(), &two_blocks([(3, 2, 1), (4, 2, 2)]).text(), &free).display().to_string();
+    for (pressure, is_pulled) in [("-1.0", true), ("1.0", false)] {
+        let (code, _, errors) = mezha_in(folder.path(), None, &["check", &file, "--set", &format!("load.top.pressure={pressure}")]);
+        let pulled = "load.top pulls body upper off all its contacts, which only push: turn the load round";
+        assert_eq!((code, errors.contains(pulled)), (Some(3), is_pulled), "{errors}");
+        assert!(errors.contains("supports and contact do not hold it"), "{errors}");
+    }
+    let held = ["check", &file, "--set", "support.high={ on = \"top\", uy = 0 }", "--set", "load.top.pressure=-1.0"];
+    let (_, _, errors) = mezha_in(folder.path(), None, &held);
+    assert!(!errors.contains("off all its contacts"), "a support may carry it: {errors}");
 }
 
 /// A scene without loads is told before and after it is run, and its mesh is not adapted.

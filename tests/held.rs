@@ -119,6 +119,9 @@ fn loads_that_drive_a_body_off_its_contacts_are_told_by_check() {
         loose(&mesh, GOOD, &[refine, "load.top.pressure=-1.0"], &words);
         right(&mesh, GOOD, &[refine]);
     }
+    // The way is that of the load.
+    let below = ["support.table={ on = \"top\", uy = 0.0 }", "load.top={ on = \"bottom\", pressure = -1.0 }"];
+    loose(&mesh, GOOD, &below, &["body lower can move by (0, -1): load.top drives it there"]);
     let both = "load.edge={ on = \"right\", traction = [0.0, 3.0] }";
     loose(&mesh, GOOD, &["load.top.pressure=-1.0", both], &["body upper can move by (0, 1): load.top, load.edge drive it there"]);
     let steps = |factors: &str| format!("steps.p={{ factors = {factors}, scales = [\"load.top\"] }}");

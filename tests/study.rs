@@ -422,3 +422,14 @@ fn a_place_that_no_summary_has_is_told() {
     assert!(said.contains("no run has a value at energy.totl"), "{said}");
     assert!(!said.contains("energy.total "), "{said}");
 }
+
+#[test]
+fn the_only_contact_of_a_case_with_several_is_told() {
+    let study = Study::new("");
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/bending/case.toml");
+    let file = format!("cases = [{:?}]\nfigure = ['unknowns', 'force']", case.display().to_string());
+    fs::write(study.folder.path().join("patch.toml"), file).expect("a file can be written");
+    let said = text(&study.make(&[]).stdout);
+    let words = "no run has a value at contact.\"*\".force of its summary.json; `*` means the only one, and there are several";
+    assert!(said.contains(words), "{said}");
+}

@@ -359,7 +359,10 @@ impl<'a> Conditions<'a> {
 }
 
 fn describe(piece: usize, pieces: &[Extent], motion: &DVector<f64>) -> Mechanism {
-    describe_motion(piece, pieces, [0, 1, 2].map(|k| motion[3 * piece + k]))
+    let moves = [0, 1, 2].map(|k| motion[3 * piece + k]);
+    // What nothing holds may go both ways.
+    let way = if moves[0].abs() < moves[1].abs() { moves[1] } else { moves[0] };
+    describe_motion(piece, pieces, moves.map(|part| part * way.signum()))
 }
 
 /// A motion of a piece in words: its shift, and its turn by the radius of the piece.
@@ -368,7 +371,6 @@ pub fn describe_motion(piece: usize, pieces: &[Extent], moves: [f64; 3]) -> Mech
     let unit = moves.map(|v| v / largest);
     let (u, turn) = (Point::new(unit[0], unit[1]), unit[2] / pieces[piece].radius);
     let words = if unit[2].abs() < LEAST_HOLD {
-        let u = u * u[u.iamax()].signum();
         format!("move by ({}, {})", tidy(u.x, 1.0), tidy(u.y, 1.0))
     } else {
         // Centre of the rotation: u + turn * (-(y - y0), x - x0) = 0.

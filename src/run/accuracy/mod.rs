@@ -59,15 +59,16 @@ fn step(goals: &[Goal], mesh: &AdaptedMesh) -> AccuracyStep {
     for (place, (goal, &estimate)) in goals.iter().zip(&mesh.errors).enumerate() {
         let error = mesh.true_errors.get(place).copied().flatten();
         let told = GoalSummary { estimate, error, asked: goal.tolerance };
-        let places = match (&goal.quantity, goal.quantity.of()) {
-            (_, None) => {
+        let places = match goal.quantity {
+            Quantity::Energy => {
                 step.energy = Some(told);
                 continue;
             }
-            (Quantity::Displacement(_) | Quantity::Stress(_), Some(probe)) => step.probe.entry(probe.into()),
-            (_, Some(contact)) => step.contact.entry(contact.into()),
+            Quantity::Displacement(_) | Quantity::Stress(_) => &mut step.probe,
+            Quantity::Force(_) | Quantity::Pressure(_) | Quantity::Peak(_) | Quantity::Ends(_) => &mut step.contact,
         };
-        places.or_default().insert(goal.quantity.word().into(), told);
+        let of = goal.quantity.of().unwrap_or_default().to_owned();
+        places.entry(of).or_default().insert(goal.quantity.word().into(), told);
     }
     step
 }

@@ -9,11 +9,13 @@ use crate::output::summary::lines_alike;
 use crate::procedure::Procedure;
 use crate::run::checking::acting_lines::acting_lines;
 use crate::run::checking::proposals::{proposed_contacts, proposed_supports};
+use crate::run::checking::pulled::pulled_off;
 use crate::run::outcome::RunError;
 use crate::run::reading::checks::check_pressures;
 use crate::run::reading::{origin, scene};
 use crate::run::telling::report::contact_lines;
 use crate::run::verdict::warnings::before::{far_turns, idle, slits};
+use crate::run::words::units;
 use crate::run::{accuracy, memory};
 use std::path::Path;
 
@@ -69,7 +71,7 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     let words = format!("{triangles} {order} triangles after {refine} refinements, {unknowns} unknowns of displacement");
     let mut lines = vec![format!("{}: {}", case.name, case.title), format!("mesh: {whole} macro triangles, {words}")];
     lines.extend(case.matched.iter().map(matched));
-    lines.extend(body_lines(&scene.bodies));
+    lines.extend(body_lines(case));
     lines.extend(contact_lines(&at_rest.contacts));
     lines.extend(acting_lines(case, &scene, &at_rest.numbering));
     if let Some(accuracy) = &case.accuracy {
@@ -86,7 +88,12 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     let warnings = slits.into_iter().chain(far_turns(case)).chain(idle).chain(warning).collect();
     let last = |words: String| case.steps.last().map_or_else(|| words.clone(), |step| format!("{}: {words}", step.words()));
     let not_held = match not_held_before {
-        None => at_rest.not_held(&scene)?.or_else(|| driven_off(case, &scene)).map(last),
+        None => match at_rest.not_held(&scene)? {
+            // What a hold would carry unseen is told before it.
+            Some(words) => Some(pulled_off(&scene).map_or(words.clone(), |pulled| format!("{pulled}; and {words}"))),
+            None => driven_off(case, &scene),
+        }
+        .map(last),
         before => before,
     };
     let proposals = proposals(case, &scene.mesh, not_held.is_some());
@@ -106,7 +113,9 @@ fn matched(Matched { place, kind, names }: &Matched) -> String {
 }
 
 /// A line for each part of a body; of many one for each material.
-fn body_lines(bodies: &[Body]) -> Vec<String> {
+fn body_lines(case: &Case) -> Vec<String> {
+    let stress = units(case);
+    let stress = stress.stress().after();
     let words = |(body, part): (&Body, &BodyPart)| {
         let Material { young, poisson, plane } = part.material;
         let plane = match plane {
@@ -119,9 +128,9 @@ fn body_lines(bodies: &[Body]) -> Vec<String> {
             .as_ref()
             .map(|Heat { expansion, temperature }| format!(", heated: α = {expansion:?}, ϑ = {}", temperature.text()));
         let of = if body.has_parts() { format!("{}, part {}", body.name, part.name) } else { body.name.clone() };
-        (format!("E = {young}, ν = {poisson}{plane}{}", heat.unwrap_or_default()), of)
+        (format!("E = {young}{stress}, ν = {poisson}{plane}{}", heat.unwrap_or_default()), of)
     };
-    let all = bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (body, part)));
+    let all = case.bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (body, part)));
     lines_alike(["body", "bodies or parts"], all.map(words)).into_iter().map(|(_, line)| line).collect()
 }
 

@@ -1,11 +1,13 @@
 //! The figure of `mezha check`: what of a case can be read, with all names.
 
-use crate::body::{Load, LoadKind, SpringStiffness, Springs, Support};
+use super::proposals::short;
+use crate::body::{Load, LoadKind, RigidSet, SpringStiffness, Springs, Support};
 use crate::case::{Case, read_text};
 use crate::contact::Pair;
 use crate::element::Plane;
 use crate::geometry::{Formula, Point};
 use crate::mesh::{Boundary, MacroMesh, MacroTriangle, Stretch};
+use crate::output::Units;
 use crate::output::plot::{
     BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure, bounds, number_text,
 };
@@ -261,9 +263,13 @@ fn lone_point(place: [f64; 2]) -> Rows {
     vec![vec![BoundaryPoint { place, normal: [0.0, -1.0], traction: [0.0; 2] }]]
 }
 
+/// A number, or dots in the place of a formula.
+fn value(formula: &Formula) -> String {
+    formula.as_constant().map_or_else(|| "…".into(), short)
+}
+
 /// What is prescribed.
 fn values(components: &[(&str, Option<&Formula>)]) -> String {
-    let value = |formula: &Formula| formula.as_constant().map_or_else(|| "…".into(), crate::run::checking::proposals::short);
     let given = components.iter().filter_map(|(key, formula)| Some(format!("{key} = {}", value((*formula)?))));
     given.collect::<Vec<_>>().join(", ")
 }
@@ -296,8 +302,8 @@ fn supports(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Ve
     let held = case.means.iter().filter_map(|mean| {
         let body = mesh.bodies.iter().position(|name| *name == mean.body)?;
         let rows = lone_point(inside(mesh, &of_bodies[body]).into());
-        let keys: Vec<&str> = mean.held.iter().map(|(key, ..)| *key).collect();
-        let words = format!("mean {}", keys.join(", "));
+        let held = mean.held.iter().map(|(key, .., way)| format!("{key} = {}", short(*way)));
+        let words = format!("mean {}", held.collect::<Vec<_>>().join(", "));
         Some(DrawnSupport { name: mean.name.clone(), words, rows, grip: Grip::Both })
     });
     let fixed = case.supports.iter().map(|support| fixed_support(support, on));
@@ -323,8 +329,20 @@ fn surface_load(load: &Load, on: &dyn Fn(&[String]) -> Rows) -> DrawnLoad {
 }
 
 /// Both components of a vector.
-fn vector([x, y]: [f64; 2]) -> String {
-    format!("({}, {})", number_text(x), number_text(y))
+pub(super) fn vector(v: Point) -> String {
+    format!("({}, {})", number_text(v.x), number_text(v.y))
+}
+
+/// What drives a stiff plate or a tool, and how it may move: all that is not given as a force is held or free.
+fn driven_words(motion: &RigidSet, thickness: f64, units: &Units) -> String {
+    let [fx, fy, moment] = motion.applied.map(|part| part * thickness);
+    let force = Point::new(fx, fy);
+    let force = (force != Point::zeros()).then(|| format!("force {}{}", vector(force), units.resultant().after()));
+    let moment = (moment != 0.0).then(|| format!("moment {}", number_text(moment)));
+    let moved = ["ux", "uy", "angle"].iter().zip(motion.prescribed);
+    let moved = moved.filter_map(|(key, way)| Some(format!("{key} = {}", short(way?))));
+    let all: Vec<String> = force.into_iter().chain(moment).chain(moved).collect();
+    if all.is_empty() { "free".into() } else { all.join(", ") }
 }
 
 fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<DrawnLoad> {
@@ -334,22 +352,24 @@ fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<D
         resultant: Some((place, along)),
         ..DrawnLoad::default()
     };
+    let units = units(case);
     let plates = case.plates.iter().map(|plate| {
         let rows = on(&plate.on);
         let [fx, fy, _] = plate.motion.applied;
         let middle = rows.iter().flatten().nth(rows.iter().flatten().count() / 2).map_or([0.0; 2], |point| point.place);
-        let words = format!("stiff plate, force {}", vector([fx, fy]));
+        let words = format!("stiff plate, {}", driven_words(&plate.motion, case.thickness, &units));
         DrawnLoad { rows, is_plate: true, ..arrow(&plate.name, words, middle, [fx, fy]) }
     });
     let at_points = case.point_loads.iter().map(|load| {
         let (place, force) = (load.at.place, load.force().into());
-        DrawnLoad { rows: lone_point(place), ..arrow(&load.name, format!("force {}", vector(force)), place, force) }
+        let words = format!("force {}{}", vector(load.force() * case.thickness), units.resultant().after());
+        DrawnLoad { rows: lone_point(place), ..arrow(&load.name, words, place, force) }
     });
     let tools = case.tools.iter().filter_map(|tool| {
         let [fx, fy, _] = tool.motion.applied;
         let moved = [0, 1].map(|k| tool.motion.prescribed[k].unwrap_or(0.0));
         let along = if fx != 0.0 || fy != 0.0 { [fx, fy] } else { moved };
-        let words = format!("{} {}", if along == moved { "moves" } else { "force" }, vector(along));
+        let words = driven_words(&tool.motion, case.thickness, &units);
         (along != [0.0; 2]).then(|| arrow(tool.key(), words, tool.motion.about.into(), along))
     });
     let of_parts = triangles_of(mesh, mesh.parts.len(), |triangle| triangle.part);
@@ -358,7 +378,10 @@ fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<D
         let place = inside(mesh, &of_parts[number]);
         let force = [0, 1].map(|k| part.force[k].value(&[place.x, place.y]));
         let acts = force.iter().all(|part| part.is_finite()) && force != [0.0; 2];
-        acts.then(|| arrow(&format!("force in {}", part.name), format!("{} for each volume", vector(force)), place.into(), force))
+        let [x, y] = part.force.each_ref().map(value);
+        let words = format!("({x}, {y}) for each volume");
+        let acting = || arrow(&format!("force in {}", part.name), words, place.into(), force);
+        acts.then(|| DrawnLoad { part: Some(number), ..acting() })
     });
     case.loads.iter().map(|load| surface_load(load, on)).chain(plates).chain(at_points).chain(tools).chain(weights).collect()
 }

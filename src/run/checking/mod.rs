@@ -8,6 +8,7 @@ mod check;
 mod drawing;
 mod first_case;
 mod info;
+mod pulled;
 
 pub(crate) mod proposals;
 

@@ -42,6 +42,11 @@ impl SummaryPath {
         Self { text: dotted(&names), names }
     }
 
+    /// Whether it leads through the only entry of a table.
+    pub fn means_only(&self) -> bool {
+        self.names.iter().any(|name| name == ONLY)
+    }
+
     /// What stands there; null if nothing does. A number is a place in a list, from 0, and `*` the only entry of a table.
     pub fn of(&self, summary: &Value) -> Value {
         self.names.iter().try_fold(summary, |value, name| step(value, name)).cloned().unwrap_or(Value::Null)

@@ -50,7 +50,12 @@ impl Progress {
         for path in plan.errors.iter().chain([&plan.time]).chain(&plan.columns) {
             let has_summary = results.iter().any(Ended::has_result);
             if has_summary && results.iter().all(|ended| path.of(&ended.summary).is_null()) {
-                say(&format!("mezha: no run has a value at {} of its summary.json; is it spelt right?\n", path.text));
+                let remedy = if path.means_only() {
+                    "`*` means the only one, and there are several: write its name"
+                } else {
+                    "is it spelt right?"
+                };
+                say(&format!("mezha: no run has a value at {} of its summary.json; {remedy}\n", path.text));
             }
         }
         if let ([x, y, ..], false) = (&plan.figure[..], has_figure) {

@@ -68,6 +68,8 @@ pub struct DrawnLoad {
     pub resultant: Option<([f64; 2], [f64; 2])>,
     /// Whether a stiff plate carries it.
     pub is_plate: bool,
+    /// Number of the part in which it acts as a body force.
+    pub part: Option<usize>,
 }
 
 /// Something with a name along a boundary.

@@ -226,7 +226,9 @@ fn advice_names_nothing_that_an_accuracy_overrides() {
     };
     let given = "contact.seam.segments=30";
     let (.., without) = judged(true, rough, &[given]);
-    assert!(without.contains("take more segments") && without.contains("take fewer segments"), "{without}");
+    assert!(!without.contains("take more segments") && without.contains("take fewer segments"), "{without}");
+    let overlapping = |summary: &mut Summary| summary.contact.get_mut("seam").expect("it is there").missing = Some(0.5);
+    assert!(judged(true, overlapping, &[given]).2.contains("take more segments"));
     let (.., with) = judged(true, rough, &[given, "accuracy=1e-3"]);
     assert!(with.contains("ask for a smaller error"), "{with}");
     assert!(!with.contains("segments (") && !with.contains("more segments") && !with.contains(FINER), "{with}");

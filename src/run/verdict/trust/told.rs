@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::contact::Pair;
 use crate::output::Summary;
 use crate::output::summary::{self, ContactTrust};
-use crate::run::verdict::limits::Doubt;
+use crate::run::verdict::limits::{Doubt, Remedy};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What a contact is called whose pressure is to be trusted.
@@ -40,7 +40,11 @@ pub struct Verdict {
 impl Verdict {
     /// Doubts of a contact, and nothing else.
     pub fn of(doubts: Vec<Doubt>, pair: &Pair, case: &Case) -> Self {
-        let remedies = doubts.iter().map(|doubt| doubt.limit.remedy.words(pair, case)).collect();
+        let remedy = |doubt: &Doubt| doubt.limit.remedy;
+        // Segments that are too many for the bodies may overlap between few that press: more of them help nothing.
+        let is_unstable = doubts.iter().any(|doubt| matches!(remedy(doubt), Remedy::Stability));
+        let helping = doubts.iter().map(remedy).filter(|remedy| !(is_unstable && matches!(remedy, Remedy::MoreSegments)));
+        let remedies = helping.map(|remedy| remedy.words(pair, case)).collect();
         Self { doubts, remedies, ..Self::default() }
     }
 
