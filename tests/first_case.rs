@@ -255,7 +255,8 @@ fn a_load_that_opens_all_contacts_is_told_before_what_does_not_hold() {
     let free = GOOD.lines().filter(|line| !line.starts_with("support")).map(|line| format!("{line}\n")).collect::<String>();
     let file = write_scene(folder.path(), &two_blocks([(3, 2, 1), (4, 2, 2)]).text(), &free).display().to_string();
     for (pressure, is_pulled) in [("-1.0", true), ("1.0", false)] {
-        let (code, _, errors) = mezha_in(folder.path(), None, &["check", &file, "--set", &format!("load.top.pressure={pressure}")]);
+        let (code, _, errors) =
+            mezha_in(folder.path(), None, &["check", &file, "--set", &format!("load.top.pressure={pressure}")]);
         let pulled = "load.top pulls body upper off all its contacts, which only push: turn the load round";
         assert_eq!((code, errors.contains(pulled)), (Some(3), is_pulled), "{errors}");
         assert!(errors.contains("supports and contact do not hold it"), "{errors}");

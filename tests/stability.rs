@@ -33,7 +33,7 @@ fn spaces_twice_too_rich_are_not_and_the_words_say_so() {
 
 #[test]
 fn the_jump_term_heals_them_with_both_solvers() {
-    for (order, space) in [(1, "p0"), (2, "p0"), (2, "p1-discontinuous")] {
+    for (order, space) in [(1, "p0"), (2, "p0"), (2, "p1-discontinuous"), (2, "p1-continuous")] {
         let [split, direct] = ["fieldsplit", "direct"].map(|solver| {
             let ended = bars(order, space, 176, solver).set("contact.seam.stabilise", true).converged();
             assert!(trusted(&ended), "P{order} and {space}");

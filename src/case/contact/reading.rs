@@ -72,9 +72,6 @@ fn check_choices(pair: &Pair, section: &Section) {
     if matches!(pair.segments, SegmentRule::Fractions(_)) && pair.grading != [1.0, 1.0] {
         refuse("grading", "stands beside segments that are given one by one; leave one of them out");
     }
-    if (pair.space, pair.stabilise) == (MultiplierSpace::P1Continuous, Stabilise::On) {
-        refuse("stabilise", "\"p1-continuous\" has no jumps to weigh; take fewer segments, or another multiplier");
-    }
 }
 
 /// Its name is part of file names.

@@ -56,8 +56,7 @@ declare! {
     const QUADRATURE: String = key("quadrature", of(ValueForm::Word(&["cut", "segment"]))).or("\"cut\"");
     /// Gauss points of a segment, at least 2 for linear multipliers; beside `quadrature = "segment"` only.
     const POINTS: usize = key("points", whole(1, 20)).or("5");
-    /// A jump term; `"auto"`: where the segments are shorter than the safe rule, see [method.md](method.md); `"p1-continuous"`
-    /// has none.
+    /// A jump term; `"auto"`: where the segments are shorter than the safe rule, see [method.md](method.md).
     const STABILISE: Option<bool> = key("stabilise", either(&[AUTO, BOOLEAN.value], "\"auto\", true or false")).or("\"auto\"");
     /// `"reference"`: normals, corresponding points and distances of the undeformed bodies, the linear theory. `"deformed"`: of
     /// the deformed ones; wants `curve = "fit"` and `gap = "geometry"`.

@@ -1,8 +1,8 @@
 //! A contact of the scene, placed and cut, with the edges of this rank.
 
 use crate::contact::{
-    Configuration, ContactBoundary, Displacement, Distance, Facing, GapChoice, Jump, Known, MultiplierSpace, Multipliers, Pair,
-    Stabilise, Zone, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
+    Configuration, ContactBoundary, Displacement, Distance, Facing, GapChoice, Jump, Known, Multipliers, Pair, Stabilise, Zone,
+    jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
 };
 use crate::discretisation::contacts::side_materials::SideMaterials;
 use crate::discretisation::error::SystemError;
@@ -276,12 +276,11 @@ fn is_loaded(scene: &Scene, edges: &[u32]) -> bool {
 
 /// Whether a contact gets the jump term: as the case asks, or where its segments are short.
 fn is_stabilised(pair: &Pair, has_short_segments: bool) -> bool {
-    pair.space != MultiplierSpace::P1Continuous
-        && match pair.stabilise {
-            Stabilise::On => true,
-            Stabilise::Auto => has_short_segments,
-            Stabilise::Off => false,
-        }
+    match pair.stabilise {
+        Stabilise::On => true,
+        Stabilise::Auto => has_short_segments,
+        Stabilise::Off => false,
+    }
 }
 
 /// The boundaries of every contact must face each other, and no two contacts claim the same place.
@@ -295,6 +294,7 @@ fn check_facing(scene: &Scene, numbering: &Numbering, contacts: &[Contact]) -> R
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::MultiplierSpace;
     use crate::discretisation::levels::finest_numbering;
     use crate::discretisation::samples::{blocks, pair};
 

@@ -1,7 +1,7 @@
 //! What mends a pressure that is too inexact, in the terms of its case.
 
 use crate::case::Case;
-use crate::contact::{MultiplierSpace, Pair, Quadrature, SegmentRule};
+use crate::contact::{Pair, Quadrature, SegmentRule};
 use crate::element::Order;
 use crate::run::verdict::limits::{P1_STIFF, Remedy};
 
@@ -35,11 +35,9 @@ impl Remedy {
 fn stability(pair: &Pair, case: &Case) -> &'static str {
     let mut parts = case.bodies.iter().flat_map(|body| &body.parts);
     let locked = case.mesh.order == Order::P1 && parts.any(|part| part.material.poisson_in_plane() > P1_STIFF);
-    match (locked, pair.segments == SegmentRule::Auto, pair.space) {
-        (true, ..) => "take mesh.order = 2: P1 triangles lock",
-        (_, true, MultiplierSpace::P1Continuous) => "take another multiplier space, or refine the mesh",
-        (_, true, _) => "take stabilise = true, another multiplier space, or refine the mesh",
-        (_, _, MultiplierSpace::P1Continuous) => "take fewer segments (\"auto\" is safe), or another multiplier space",
+    match (locked, pair.segments == SegmentRule::Auto) {
+        (true, _) => "take mesh.order = 2: P1 triangles lock",
+        (_, true) => "take stabilise = true, another multiplier space, or refine the mesh",
         _ => "take fewer segments (\"auto\" is safe), stabilise = true, or another multiplier space",
     }
 }

@@ -2,7 +2,6 @@
 
 use crate::body::{BodyPart, RigidSet};
 use crate::case::Case;
-use crate::contact::MultiplierSpace;
 use crate::discretisation::{Contact, Scene};
 use crate::element::Order;
 use crate::mesh::{MacroMesh, Numbering, Slit};
@@ -44,13 +43,8 @@ pub fn locking(scene: &Scene) -> Vec<String> {
 /// Contacts with such segments, and what is done about them.
 pub fn short_segments(contacts: &[Contact]) -> Vec<String> {
     let words = |contact: &Contact| {
-        let remedy = match contact.multipliers.space {
-            _ if !contact.jumps.is_empty() => "the jump term is added (stabilise)",
-            MultiplierSpace::P1Continuous => {
-                "this space has no jump term: take multiplier = \"p1-discontinuous\", or segments = \"auto\""
-            }
-            _ => "watch inf_sup and oscillation",
-        };
+        let remedy =
+            if contact.jumps.is_empty() { "watch inf_sup and oscillation" } else { "the jump term is added (stabilise)" };
         let (name, ratio, safe) = (&contact.pair.name, short(contact.segment_ratio), contact.safe_ratio);
         format!("contact {name}: segments of {ratio} edges of the softer body, {safe} or more are safe: {remedy}")
     };
