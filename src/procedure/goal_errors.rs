@@ -59,7 +59,11 @@ impl Procedure<'_> {
             (Quantity::Stress(probe), _) => self.probe_errors(solved, probe)[1],
             (Quantity::Force(_), Some(at)) => of(&estimate.force, at),
             (Quantity::Pressure(_), Some(at)) => self.pressure_error(solved, at)?,
-            (Quantity::Peak(_), Some(at)) => of(&estimate.peak, at).filter(|_| !has_unbounded_peak(solved, at)),
+            (Quantity::Peak(_), Some(at)) => {
+                let pressure = solved.solution.pressure(&solved.problem.contacts[at]);
+                let variation = pressure.zones().iter().map(|zone| pressure.variation_at_joints(zone)).fold(0.0, f64::max);
+                of(&estimate.peak, at).filter(|_| !has_unbounded_peak(solved, at)).map(|error| error.max(variation))
+            }
             (Quantity::Ends(_), Some(at)) if self.presses_throughout(solved, at)? => {
                 of(&estimate.ends, at).map(|error| error + solved.ending.would_move())
             }

@@ -82,13 +82,14 @@ fn nodes_of<'a>(
 }
 
 impl Evaluation<'_> {
-    /// The largest von Mises stress of each part; of each contact it is known whether λ `grows` without bound. **Collective**
+    /// The largest von Mises stress of each part; of each contact it is known whether λ `grows` without bound towards an end, and where
+    /// it does so at `joints` of materials. **Collective**
     ///
     /// # Errors
     /// As [`Evaluation::new`].
-    pub fn stress_peaks(&self, grows: &[bool]) -> Result<Vec<StressPeak>, SystemError> {
+    pub fn stress_peaks(&self, grows: &[bool], joints: &[Vec<Point>]) -> Result<Vec<StressPeak>, SystemError> {
         let (problem, mesh, stress) = (self.problem, &self.problem.scene.mesh, self.stress()?);
-        let (level, singular) = (problem.finest().numbering.level, all_singular_places(self, grows));
+        let (level, singular) = (problem.finest().numbering.level, all_singular_places(self, grows, joints));
         let concentrated = self.concentrated_stresses(&singular, stress);
         // Macro triangles where the stress is as large as before them, or nearly: among them are those of the largest one.
         let mut largest = vec![0.0_f64; mesh.parts.len()];
@@ -187,7 +188,7 @@ fn edges_at(problem: &Discretisation, nodes: &[usize], triangles: &[u32], sessio
 
 /// All places where the stress has no bound: by the shape of a body and what holds it, at points that carry a force, where a corner
 /// presses at the end of a contact, and at the ends of those contacts whose pressure `grows`.
-fn all_singular_places(found: &Evaluation, grows: &[bool]) -> Vec<SingularPlace> {
+fn all_singular_places(found: &Evaluation, grows: &[bool], joints: &[Vec<Point>]) -> Vec<SingularPlace> {
     let (problem, scene, balance) = (found.problem, &found.problem.scene, &found.balance);
     let mut all = singular_places(&scene.mesh, &scene.parts(), &scene.supports, &scene.rigid);
     let held = scene.supports.iter().zip(&balance.reactions);
@@ -199,6 +200,13 @@ fn all_singular_places(found: &Evaluation, grows: &[bool]) -> Vec<SingularPlace>
     all.extend(
         contacts.flat_map(|(contact, grows)| contact_ends((&scene.mesh, &angles), &found.solution.pressure(contact), *grows)),
     );
+    for (contact, place) in
+        problem.contacts.iter().zip(joints).flat_map(|(contact, own)| own.iter().map(move |place| (contact, *place)))
+    {
+        let is_deformed = contact.pair.configuration == Configuration::Deformed;
+        let of_body = |body| SingularPlace { body, place, vertex: None, is_deformed, why: Unbounded::Materials };
+        all.extend(contact.bodies.map(of_body));
+    }
     let size = scene.mesh.vertices.iter().map(|x| x.amax()).fold(0.0, f64::max);
     all.iter_mut().for_each(|found| found.place = without_rounding(found.place, size));
     all

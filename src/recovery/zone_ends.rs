@@ -56,9 +56,25 @@ impl ContactPressure<'_> {
         a > factor * b && slopes[0] > slopes[1]
     }
 
-    /// Parameter of Γ_C at which the material of a body changes within a zone, or at an end of it, and towards which λ grows without
+    /// Parameter of Γ_C at which an edge between two materials ends within a zone, or at an end of it, and towards which λ grows without
     /// bound (Bogy 1971), as far as this mesh tells, where it is among the largest of the zone.
     pub fn grows_at_joint(&self, zone: &Zone) -> Option<f64> {
+        self.rows_at_joints(zone).into_iter().find(|(_, row)| self.steepens(*row, GROWS_AT_JOINTS)).map(|(joint, _)| joint)
+    }
+
+    /// How much λ varies beside such a place over three segments, by the largest λ of the zone: as long as that is much, it may grow
+    /// without bound on finer meshes.
+    pub fn variation_at_joints(&self, zone: &Zone) -> f64 {
+        let variation = |(_, row): (f64, [usize; 3])| {
+            let [near, next, far] = row.map(|k| self.value(k, 0.5));
+            (near - next).abs().max((next - far).abs()).max((near - far).abs())
+        };
+        self.rows_at_joints(zone).into_iter().map(variation).fold(0.0, f64::max) / self.peak_of(zone)
+    }
+
+    /// Three segments of a zone in a row from each place on at which an edge between two materials ends, with its parameter, where the
+    /// first of them is among the highest.
+    fn rows_at_joints(&self, zone: &Zone) -> Vec<(f64, [usize; 3])> {
         let (boundary, least) = (&self.contact.boundary, AMONG * self.peak_of(zone));
         let count = boundary.segments() as isize;
         let within_zone = |k: isize| {
@@ -66,17 +82,18 @@ impl ContactPressure<'_> {
             let is_within = [own, own + count].iter().any(|&k| zone.segments.contains(&(k as usize)));
             (is_within && (0..count).contains(&own)).then_some(own as usize)
         };
-        let is_singular = |&&joint: &&f64| {
+        let of_joint = |&joint: &f64| {
             let (at, z) = boundary.locate(joint);
             // A segment on both sides of the joint says nothing of either.
             let before = if z > 1.0 - ASIDE { at } else { at.wrapping_sub(1) } as isize;
             let behind = if z < ASIDE { at } else { at + 1 } as isize;
-            [(before, -1), (behind, 1)].into_iter().any(|(first, way)| match [0, 1, 2].map(|i| within_zone(first + way * i)) {
-                [Some(a), Some(b), Some(c)] => self.value(a, 0.5) > least && self.steepens([a, b, c], GROWS_AT_JOINTS),
-                _ => false,
+            [(before, -1), (behind, 1)].into_iter().filter_map(move |(first, way)| {
+                let [a, b, c] = [0, 1, 2].map(|i| within_zone(first + way * i));
+                Some((joint, [a?, b?, c?]))
             })
         };
-        self.contact.joints.iter().find(is_singular).copied()
+        let rows = self.contact.joints.iter().flat_map(of_joint);
+        rows.filter(|(_, row)| self.value(row[0], 0.5) > least).collect()
     }
 
     /// Whether a zone reaches an end of Γ_C where one of the bodies has a corner and the other goes on.

@@ -23,4 +23,4 @@ pub use contact_system::{Start, System};
 pub use need::{memory_need, memory_of_macro_mesh};
 pub use rigid_border::RigidBorder;
 pub use saddle_point::SaddlePoint;
-pub use solver::{LinearEnding, LinearSolve, LinearSolver, Preconditioning, Residual};
+pub use solver::{LinearEnding, LinearSolve, LinearSolver, MOST_ROUNDING, Preconditioning, Residual};

@@ -36,7 +36,7 @@ pub struct Contact {
     pub bodies: [usize; 2],
     /// Part of each body beside its boundary; the softest one if there are several.
     pub parts: [usize; 2],
-    /// Parameters of Γ_C at which the material of a body changes.
+    /// Parameters of Γ_C at which edges between two materials of a body end.
     pub joints: Vec<f64>,
     /// Edges of body 1 and of body 2 whose macro triangle this rank owns, where contact is modelled.
     pub edges: [Vec<BoundaryEdge>; 2],

@@ -7,7 +7,7 @@
 use crate::contact::ContactBoundary;
 use crate::discretisation::scene::Scene;
 use crate::mesh::{BoundaryEdge, Level};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 /// Young's moduli of the parts beside both boundaries of a contact; most boundaries have one part.
 pub struct SideMaterials<'s> {
@@ -16,7 +16,7 @@ pub struct SideMaterials<'s> {
     extremes: [[usize; 2]; 2],
     /// The softest part beside each boundary.
     pub softest: [usize; 2],
-    /// Vertices of either boundary at which the material of the body changes.
+    /// Vertices of either boundary at which an edge between two materials of the body ends.
     joints: HashSet<u32>,
 }
 
@@ -35,7 +35,7 @@ impl<'s> SideMaterials<'s> {
         Self { scene, extremes, softest: extremes.map(|[softest, _]| softest), joints }
     }
 
-    /// Parameters of Γ_C at which the material of a body changes.
+    /// Parameters of Γ_C at which edges between two materials of a body end.
     pub fn joints(&self, boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], level: Level) -> Vec<f64> {
         let vertex = |edge: &BoundaryEdge| edge.nodes[0].vertex(&self.scene.mesh, level);
         let starts_there = |edge: &&BoundaryEdge| vertex(edge).is_some_and(|vertex| self.joints.contains(&vertex));
@@ -77,23 +77,31 @@ impl<'s> SideMaterials<'s> {
     }
 }
 
-/// Vertices at which two of the macro edges of a boundary meet, with different materials beside them.
+/// Vertices of macro edges of a boundary at which an edge between two materials ends.
 fn joints(scene: &Scene, edges: &[u32]) -> Vec<u32> {
     let mesh = &scene.mesh;
-    let part_beside = |edge: u32| mesh.triangles[mesh.beside(edge).0 as usize].part as usize;
-    if edges.iter().all(|&edge| part_beside(edge) == part_beside(edges[0])) {
+    let Some(body) = edges.first().map(|&edge| mesh.body_beside(edge)).filter(|&body| scene.bodies[body].has_parts()) else {
         return Vec::new();
-    }
-    let mut beside: HashMap<u32, usize> = HashMap::new();
-    let mut found = Vec::new();
-    for &edge in edges {
-        let part = part_beside(edge);
-        for vertex in mesh.edges[edge as usize].vertices {
-            let other = *beside.entry(vertex).or_insert(part);
-            if !scene.part(part).is_alike(scene.part(other)) {
-                found.push(vertex);
-            }
+    };
+    debug_assert!(edges.iter().all(|&edge| mesh.body_beside(edge) == body), "a side of a contact is of one body");
+    let ends = edges.iter().flat_map(|&edge| mesh.edges[edge as usize].vertices.map(|vertex| (edge, vertex)));
+    ends.filter(|&(edge, vertex)| is_joint(scene, edge, vertex)).map(|(_, vertex)| vertex).collect()
+}
+
+/// Whether the material changes on the way around a vertex, from a boundary edge through all triangles there.
+fn is_joint(scene: &Scene, mut edge: u32, vertex: u32) -> bool {
+    let mesh = &scene.mesh;
+    let mut at = mesh.beside(edge).0 as usize;
+    loop {
+        let triangle = &mesh.triangles[at];
+        let ends_there = |other: &u32| *other != edge && mesh.edges[*other as usize].vertices.contains(&vertex);
+        let Some(next) = triangle.edges.into_iter().find(ends_there) else { return false };
+        let across = mesh.edges[next as usize].triangles.into_iter().flatten().find(|&other| other as usize != at);
+        let Some(other) = across else { return false };
+        let [here, there] = [triangle.part, mesh.triangles[other as usize].part];
+        if here != there && !scene.part(here as usize).is_alike(scene.part(there as usize)) {
+            return true;
         }
+        (edge, at) = (next, other as usize);
     }
-    found
 }

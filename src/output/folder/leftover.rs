@@ -123,7 +123,7 @@ fn make_writable(folder: &Path) {
 }
 
 /// Whether both are files of the same content.
-fn is_equal(one: &Path, other: &Path) -> bool {
+pub fn is_equal(one: &Path, other: &Path) -> bool {
     let length = |path: &Path| path.symlink_metadata().ok().filter(|found| found.is_file()).map(|found| found.len());
     length(one).is_some()
         && length(one) == length(other)
@@ -131,7 +131,7 @@ fn is_equal(one: &Path, other: &Path) -> bool {
 }
 
 /// The path itself, or, where there is something, with `.old`, `.old2` and so on.
-fn free_name(path: &Path) -> PathBuf {
+pub fn free_name(path: &Path) -> PathBuf {
     let numbered = (1..).map(|number: usize| match number {
         1 => ".old".into(),
         _ => format!(".old{number}"),

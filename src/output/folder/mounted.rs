@@ -6,8 +6,8 @@ use std::path::Path;
 use rustix::fs::{AtFlags, CWD, StatxAttributes, StatxFlags, statx};
 
 use super::entries::{entries, remove_if_there};
-use super::leftover::carry_over;
-use super::own_files::{OwnFiles, SUMMARY};
+use super::leftover::{carry_over, free_name, is_equal};
+use super::own_files::{OwnFiles, SUMMARY, names_within};
 use crate::output::error::OutputError;
 
 /// What a file system has of itself in its first folder.
@@ -28,7 +28,8 @@ pub fn is_bare(target: &Path) -> Result<bool, OutputError> {
 }
 
 /// Moves the files of a result from a folder within the target to the target itself, in the place of those that the result before
-/// has written, but for one that is kept. The summary, which makes it a result, goes first and comes last.
+/// has written, but for one that is kept. What else has the name of a file of the result gets another one. The summary, which makes it
+/// a result, goes first and comes last.
 ///
 /// # Errors
 /// The operating system refuses.
@@ -37,6 +38,12 @@ pub fn move_in(temporary: &Path, target: &Path, kept: Option<&Path>) -> Result<(
     remove_if_there(&target.join(SUMMARY))?;
     let before = kept.into_iter().fold(before, |own, kept| own.without(kept));
     before.names().try_for_each(|name| remove_if_there(&target.join(name)))?;
+    for name in names_within(temporary)?.iter().map(Path::new).filter(|name| kept != Some(*name)) {
+        let (own, other) = (temporary.join(name), target.join(name));
+        if other.symlink_metadata().is_ok() && !is_equal(&own, &other) {
+            fs::rename(&other, free_name(&other)).map_err(OutputError::io("rename", &other))?;
+        }
+    }
     let summary = OwnFiles([SUMMARY.into()].into());
     carry_over(temporary, target, Path::new(""), &summary)?;
     fs::rename(temporary.join(SUMMARY), target.join(SUMMARY)).map_err(OutputError::io("make", &target.join(SUMMARY)))?;

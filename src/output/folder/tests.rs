@@ -213,6 +213,26 @@ fn a_mount_point_is_filled() {
     );
 }
 
+/// A file of somebody else's keeps its content under another name, and the result has those that it lists.
+#[test]
+fn a_file_in_a_mount_point_is_not_taken_for_one_of_the_result() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("volume");
+    fs::create_dir_all(&out).unwrap();
+    fs::write(out.join("report.html"), "mine").unwrap();
+    for text in ["first", "second"] {
+        let mut folder = ResultFolder::create(&out.join("inner"), true).unwrap();
+        (folder.target, folder.is_mounted) = (out.clone(), true);
+        folder.replaced = File::open(out.join(SUMMARY)).ok();
+        fs::write(folder.path("report.html"), text).unwrap();
+        write_case(&folder, text);
+        folder.commit().unwrap();
+        let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
+        assert_eq!((read("report.html"), read("report.html.old")), (text.into(), "mine".into()));
+        assert_eq!(names(&out), ["report.html", "report.html.old", "summary.json"]);
+    }
+}
+
 /// Of two results that were begun at the same time in a mount point the first that ends stays.
 #[test]
 fn the_second_in_a_mount_point_is_told() {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::numbers::numbers;
 use crate::contact::zone_counts;
-use crate::geometry::Coordinates;
+use crate::geometry::{Coordinates, Point};
 
 /// One contact.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -99,6 +99,11 @@ impl ContactSummary {
     /// Whether it does so towards an end of the contact boundary.
     pub fn is_singular_at_end(&self) -> bool {
         self.singular_zones().any(|zone| zone.singular_at.is_none())
+    }
+
+    /// The points at which materials meet where it does so.
+    pub fn singular_places(&self) -> Vec<Point> {
+        self.singular_zones().filter_map(|zone| zone.singular_at.map(Into::into)).collect()
     }
 
     /// Where it does so, in words: towards an end, or at a point at which materials meet.

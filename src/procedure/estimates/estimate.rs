@@ -17,6 +17,10 @@ use crate::element::Order;
 use crate::mesh::Cells;
 use crate::recovery::{TracePoint, ZoneErrors, zone_errors};
 
+/// Share of the change of a largest λ by one mesh that the next one adds where it has no bound: about one; where it is bounded a half
+/// or less.
+const GOES_ON: f64 = 0.75;
+
 /// Error in the energy norm by one difference alone, P1 and P2: halfway between a smooth solution and one with corners.
 const ENERGY_BY_ONE: [f64; 2] = [0.7, 0.5];
 
@@ -149,6 +153,16 @@ impl Estimate {
             (estimate, differences.map(|difference| difference.map(|found| found.at_ends)))
         };
         errors.iter().enumerate().map(one).collect()
+    }
+
+    /// Whether the largest λ of each zone of contact `at` changed by about as much on this mesh as on the one before, as where it has
+    /// no bound; that is so where there are no two changes to compare.
+    pub fn peaks_go_on(&self, at: usize) -> Vec<bool> {
+        let goes_on = |pair: &[Option<ZoneDifference>; 2]| match pair {
+            [Some(now), Some(before)] => now.peak > GOES_ON * before.peak,
+            _ => true,
+        };
+        self.zones.get(at).map_or(Vec::new(), |zones| zones.iter().map(goes_on).collect())
     }
 
     /// What λ was at the ends of each zone of contact `at`; nothing if there were no coarser meshes.

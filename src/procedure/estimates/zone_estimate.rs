@@ -48,7 +48,7 @@ pub struct ZoneDifference {
     /// Of its force.
     force: f64,
     /// Of its peak.
-    peak: f64,
+    pub peak: f64,
     /// What λ was at its ends (stress).
     pub at_ends: [f64; 2],
 }

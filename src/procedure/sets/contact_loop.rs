@@ -9,7 +9,7 @@ use crate::procedure::sets::first_set::{carried_set, first_set};
 use crate::procedure::sets::pass::Pass;
 use crate::procedure::sets::residual_scale::{LOOSE, last_residual, share, share_of_forces};
 use crate::procedure::sets::unsettled::{going_on, places};
-use crate::system::{LinearEnding, LinearSolve, Start, System, Tolerance};
+use crate::system::{LinearEnding, LinearSolve, MOST_ROUNDING, Start, System, Tolerance};
 
 /// Relative residual that any solve goes to, at least: a start from a load step that is far away may have one above 1.
 const WIDEST: f64 = 0.1;
@@ -269,7 +269,8 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
     }
 
     fn after_failure(&self, ending: LinearEnding, state: &ContactState) -> Ending {
-        if self.last() > self.wanted {
+        let is_far = matches!(ending, LinearEnding::Failed { residual, .. } if residual.is_nan() || residual > MOST_ROUNDING);
+        if self.last() > self.wanted || is_far {
             return self.ending(ending);
         }
         // What went on below the tolerance and could not is as good as rounding allows.

@@ -1,6 +1,7 @@
 //! The largest stress of each body.
 
 use crate::case::Case;
+use crate::geometry::Point;
 use crate::output::summary::{BodySummary, ContactSummary, Status, Summary, listed};
 use crate::procedure::Solved;
 use crate::recovery::Evaluation;
@@ -28,7 +29,9 @@ pub fn largest_stresses(
         (!names.is_empty()).then(|| listed(&names))
     };
     let before = |part: usize| solved.coarse_stress.as_ref().map(|all| all[part]);
-    let own = found.stress_peaks(&grows)?.into_iter().zip(&scene.mesh.parts).enumerate();
+    let joints = |name: &String| summary.contact.get(name).map(ContactSummary::singular_places).unwrap_or_default();
+    let joints: Vec<Vec<Point>> = found.problem.contacts.iter().map(|contact| joints(&contact.pair.name)).collect();
+    let own = found.stress_peaks(&grows, &joints)?.into_iter().zip(&scene.mesh.parts).enumerate();
     let own = own.filter(|(_, (_, part))| !scene.is_rigid(part.body as usize)).map(|(at, (peak, part))| PartStress {
         name: part.name.clone(),
         body: part.body as usize,

@@ -69,11 +69,14 @@ impl<'a> Zones<'a> {
         let Self { solved: Solved { problem, solution, estimate, .. }, contact, zones, points, .. } = self;
         let pressure = solution.pressure(contact);
         let estimates = estimate.of_zones(self.at, &pressure, zones, points);
+        // Meshes that adapt are refined there by more than one half, or by nothing.
+        let goes_on = if self.solved.adaptation.is_none() { estimate.peaks_go_on(self.at) } else { Vec::new() };
         let describe = |(k, share): (usize, f64)| {
             let (zone, (found, at_ends)) = (&zones[k], &estimates[k]);
             let before = |end: usize| at_ends.map(|values| values.map(|values| values[end]));
             let grows = (0..2).any(|end| pressure.grows_towards(zone, end, before(end)));
-            let joint = pressure.grows_at_joint(zone).map(|t| contact.boundary.point(t).into());
+            let goes_on = goes_on.get(k).is_none_or(|goes_on| *goes_on);
+            let joint = pressure.grows_at_joint(zone).filter(|_| goes_on).map(|t| contact.boundary.point(t).into());
             let singular = is_singular(grows, corner_error) || joint.is_some();
             let edges = contact.edges_on(zone);
             // All signs of a narrow zone may be small beside its error, unless they are very small.
@@ -90,7 +93,7 @@ impl<'a> Zones<'a> {
                 whole: found.inside.filter(tells),
                 worst: found.worst,
                 force: found.force,
-                peak: peak_error(found.peak.filter(tells), singular),
+                peak: peak_error(found.peak.filter(tells), singular).map(|error| error.max(pressure.variation_at_joints(zone))),
                 peak_at_end: Some(pressure.peaks_at_end(zone)),
                 singular: Some(singular),
                 singular_at: joint,

@@ -75,3 +75,4 @@ pub use ladder::MANY;
 pub use linear_solve::{LinearEnding, LinearSolve, Residual};
 pub use linear_solver::LinearSolver;
 pub use preconditioning::Preconditioning;
+pub use solving::MOST_ROUNDING;

@@ -57,7 +57,10 @@ pub(super) fn lambda_options(pattern: SchurPattern, ranks: usize) -> Options {
     match (pattern, ranks) {
         (SchurPattern::Diagonal, _) => &[("-fieldsplit_lambda_pc_type", "jacobi")],
         (SchurPattern::Pairs, _) => &[("-fieldsplit_lambda_pc_type", "pbjacobi")],
-        (SchurPattern::Mixed, 1) => &[("-fieldsplit_lambda_pc_type", "lu")],
-        (SchurPattern::Mixed, _) => &[("-fieldsplit_lambda_pc_type", "redundant")],
+        // Its entries are as large as E: no pivot is zero for being small.
+        (SchurPattern::Mixed, 1) => &[("-fieldsplit_lambda_pc_type", "lu"), ("-fieldsplit_lambda_pc_factor_zeropivot", "1e-300")],
+        (SchurPattern::Mixed, _) => {
+            &[("-fieldsplit_lambda_pc_type", "redundant"), ("-fieldsplit_lambda_redundant_pc_factor_zeropivot", "1e-300")]
+        }
     }
 }

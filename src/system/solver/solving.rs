@@ -9,7 +9,7 @@ use crate::petsc::{KrylovEnding, Vector, WatchedSolve};
 use crate::system::saddle_point::SaddlePoint;
 
 /// Relative residual above which rounding is no excuse.
-const MOST_ROUNDING: f64 = 1e-6;
+pub const MOST_ROUNDING: f64 = 1e-6;
 
 impl LinearSolver {
     /// Solves from the `x` that is given, until the residual is below `tolerance |b|` or rounding stops it; a solve that
