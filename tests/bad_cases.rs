@@ -45,6 +45,12 @@ fn bad_mesh(from: &str, to: &str, words: &[&str]) {
     refused(&text, GOOD, |run| run, &[words, &["mesh.msh"]].concat());
 }
 
+/// Such moduli ended in a panic.
+#[test]
+fn moduli_without_a_common_measure_are_refused() {
+    bad_key("body.upper.young", "1e-80", &["body.upper: young = 1e-80 beside 7e3", "take a rigid tool for what is so hard"]);
+}
+
 /// Points and springs, against the mesh.
 #[test]
 fn points_outside_and_springs_that_push_away_are_refused() {

@@ -449,7 +449,8 @@ fn a_folder_is_of_one_run() {
             runs.into_iter().map(|run| run.join().expect("a run ends")).collect()
         });
         for (code, _, errors) in ended.iter().filter(|(code, _, _)| *code != Some(0)) {
-            let words = if *code == Some(1) { "another run has put its result into" } else { "already holds a result" };
+            let words =
+                if *code == Some(1) { "another run, or somebody else, has put files into" } else { "already holds a result" };
             assert!(errors.contains(words) && (*code == Some(1) || !force && *code == Some(2)), "{code:?}: {errors}");
             told += usize::from(*code == Some(1));
         }

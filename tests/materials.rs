@@ -215,7 +215,11 @@ support.top = { on = ["t1", "t2"], ux = 0, uy = -0.01 }
 contact.seam = { between = ["bt", ["b1", "b2"]] }
 "#;
 
-/// The pressure grows like a weak power of the distance from the edge between the two materials, .77 to .91 within four meshes. It was "reached to 5e-2".
+/// The same block under a load instead.
+const PRESSED: &str = "load.top = { on = [\"t1\", \"t2\"], pressure = \"exp(0.5*x)\" }";
+
+/// The pressure grows like a weak power of the distance from the edge between the two materials, .77 to .91 within four meshes. It was
+/// "reached to 5e-2".
 #[test]
 fn a_pressure_without_bound_where_materials_meet_is_told() {
     let mesh = include_str!("meshes/two_materials.msh");
@@ -257,6 +261,20 @@ accuracy = { peak = 0.03, max_unknowns = 60000 }
     let folder = tempfile::tempdir().expect("a temporary folder");
     let ended = Run::file(&write_scene(folder.path(), mesh, case)).ended();
     assert_eq!(ended.code, Some(3), "{}", ended.said());
+    assert!(ended.number("/contact/seam/pressure_max") > 2.0, "the meshes have found it: {}", ended.said());
+}
+
+/// A steep and convex pressure that goes smoothly over the edge between two materials which are nearly alike: it has a largest value.
+#[test]
+fn a_smooth_pressure_across_materials_has_a_largest_value() {
+    let pressed = ACROSS.replace("support.top = { on = [\"t1\", \"t2\"], ux = 0, uy = -0.01 }", PRESSED);
+    assert_ne!(pressed, ACROSS);
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), include_str!("meshes/two_materials.msh"), &pressed);
+    let ended = Run::file(&file).set("body.blk.part.b.young", 102).set("accuracy.peak", 0.05).converged();
+    assert_eq!(ended.value("/contact/seam/zones/0/singular"), false);
+    let largest = ended.number("/contact/seam/pressure_max");
+    assert!((largest / 2.209 - 1.0).abs() < 0.05, "{largest}");
 }
 
 /// What is left of λ in the middle of a zone across both materials, by λ on a mesh for a tenth of it: 1.16e-2 for 1e-2 where the

@@ -2,8 +2,8 @@
 //!
 //! `C = δ (h / E_c) Σ H [ψ_i] [ψ_j]` in place of the zero block, over the jumps between neighbouring values: at the
 //! inner segment ends, at the seam of a closed boundary and, for linear λ, across each segment. For continuous P1 that is twelve
-//! times `∫(λ - Πλ)²`, Π the mean of a segment (Dohrmann, Bochev 2004; Bochev, Dohrmann, Gunzburger 2006). `h` is the length of the softer
-//! body's edges and `H` that of the segments, both means of the segments beside. It vanishes with `h H` for a smooth pressure.
+//! times `∫(λ - Πλ)²`, Π the mean of a segment (Dohrmann, Bochev 2004; Bochev, Dohrmann, Gunzburger 2006). `h` is the length of the
+//! softer body's edges and `H` that of the segments, both means of the segments beside. It vanishes with `h H` for a smooth pressure.
 //!
 //! `h` is local: on `bars_inclined/graded.toml` with 400 even segments the energy is off by 2.4e-9, with the longest edge
 //! everywhere it was 2.5e-7. Measured on example 1, 17 000 unknowns, `direct`: H/h, and the largest error of λ at x = 1.2 to 4.8
@@ -38,9 +38,8 @@ pub struct Jump {
 /// Sparse rows: for each row its columns and values.
 pub type SparseRows = Vec<BTreeMap<usize, f64>>;
 
-/// Jumps of one contact boundary, between neighbouring multipliers. `edges` are the lengths of the
-/// edges beside each segment, `moduli` the `E_c` of each multiplier (stress). Between two materials the harder one counts, for λ
-/// itself may jump there.
+/// Jumps of one contact boundary, between neighbouring multipliers. `edges` are the lengths of the edges beside each segment, `moduli`
+/// the `E_c` of each multiplier (stress). Between two materials the harder one counts, for λ itself may jump there.
 pub fn jumps(multipliers: &Multipliers, edges: &[f64], moduli: &[f64]) -> Vec<Jump> {
     let count = multipliers.count();
     let across_the_seam = multipliers.closed.then_some([count - 1, 0]).filter(|_| count > 2);

@@ -20,7 +20,7 @@ pub enum OutputError {
     NoName(PathBuf),
     /// Another run was faster.
     #[error(
-        "another run has put its result into `{}` since this one began, and that one stays there; choose another folder with --out, or let one run end before the next begins",
+        "another run, or somebody else, has put files into `{}` since this run began, and they stay there; choose another folder with --out, or let one run end before the next begins",
         .0.display()
     )]
     Overtaken(PathBuf),

@@ -9,8 +9,9 @@ use std::ops::Range;
 use std::ptr;
 
 /// A matrix whose rows lie in consecutive ranges on the ranks: sparse ([`Matrix::aij`]), two by two of others
-/// ([`Matrix::nest`]), another one transposed ([`Matrix::transposed`]) or an action ([`Matrix::operator`]). It has one owner, who alone can change it; a nest and a solver keep references of
-/// PETSc's own to the matrices they are made of, and see their changes.
+/// ([`Matrix::nest`]), another one transposed ([`Matrix::transposed`]) or an action ([`Matrix::operator`]). It has one owner, who
+/// alone can change it; a nest, a transposed one and a solver keep references of PETSc's own to the matrices they are made of, and
+/// see their changes.
 pub struct Matrix {
     pub(super) raw: ffi::Mat,
     pub(super) session: Session,
@@ -45,7 +46,8 @@ impl Matrix {
         Ok(matrix)
     }
 
-    /// The transposed of this matrix, of which it has no entries of its own. **Collective**
+    /// The transposed of this matrix, without entries of its own: it follows changes of values, not another matrix in this place.
+    /// **Collective**
     pub fn transposed(&self) -> Result<Self> {
         let mut raw = ptr::null_mut();
         petsc!(MatCreateTranspose(self.raw, &mut raw))?;

@@ -9,7 +9,7 @@ use crate::element::von_mises;
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, Spot, lattice};
 use crate::petsc::Session;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Of stresses that differ by a smaller share of the largest the first one in a direction counts, so that rounding does not choose
 /// between the two sides of a symmetric body.
@@ -21,8 +21,8 @@ const FIRST: [f64; 2] = [1.0, 0.37];
 /// Edges around a singular place within which a largest stress is that of the place.
 const NEAR: f64 = 2.0;
 
-/// Share of the largest stress of a part from which that of a singular place elsewhere will soon be larger: at a re-entrant corner of
-/// 90 degrees after two refinements.
+/// Share of the largest stress of a part from which that of a singular place elsewhere will be larger on finer meshes: at a re-entrant
+/// corner of 90 degrees after two refinements, at the least power that is looked at after seven.
 const SOON: f64 = 0.5;
 
 /// By what the stress at a singular place is larger than two edges away, at least: powers above .14 (a bend by 20 degrees has .1).
@@ -90,7 +90,7 @@ impl Evaluation<'_> {
     pub fn stress_peaks(&self, grows: &[bool], joints: &[Vec<Point>]) -> Result<Vec<StressPeak>, SystemError> {
         let (problem, mesh, stress) = (self.problem, &self.problem.scene.mesh, self.stress()?);
         let (level, singular) = (problem.finest().numbering.level, all_singular_places(self, grows, joints));
-        let concentrated = self.concentrated_stresses(&singular, stress);
+        let (concentrated, touching) = (self.concentrated_stresses(&singular, stress), touching(mesh, &singular));
         // Macro triangles where the stress is as large as before them, or nearly: among them are those of the largest one.
         let mut largest = vec![0.0_f64; mesh.parts.len()];
         let mut candidates: Vec<u32> = Vec::new();
@@ -131,8 +131,7 @@ impl Evaluation<'_> {
             let is_near =
                 |other: &&SingularPlace| other.body == mesh.parts[part].body as usize && away(other) <= NEAR * edges[part];
             let near = singular.iter().filter(is_near).min_by(|a, b| away(a).total_cmp(&away(b)));
-            let is_soon_larger =
-                |at: &usize| singular[*at].body == mesh.parts[part].body as usize && concentrated[*at] > SOON * largest[part];
+            let is_soon_larger = |at: &usize| concentrated[*at] > SOON * largest[part] && touching.contains(&(*at, part as u32));
             let elsewhere = (0..singular.len()).filter(is_soon_larger);
             let elsewhere = elsewhere.max_by(|a, b| concentrated[*a].total_cmp(&concentrated[*b])).map(|at| &singular[at]);
             let unbounded = near.or(elsewhere).cloned();
@@ -165,6 +164,16 @@ impl Evaluation<'_> {
         self.session.max(found.as_flattened_mut());
         found.into_iter().map(|[there, beside]| if there > CONCENTRATED * beside { there } else { 0.0 }).collect()
     }
+}
+
+/// Which places touch which parts: those that are vertices of them.
+fn touching(mesh: &MacroMesh, places: &[SingularPlace]) -> HashSet<(usize, u32)> {
+    let mut at_vertex: HashMap<u32, Vec<usize>> = HashMap::new();
+    let vertices = places.iter().enumerate().filter_map(|(at, place)| Some((place.vertex?, at)));
+    vertices.for_each(|(vertex, at)| at_vertex.entry(vertex).or_default().push(at));
+    let corners = mesh.triangles.iter().flat_map(|triangle| triangle.vertices.map(|vertex| (vertex, triangle.part)));
+    let own = corners.filter_map(|(vertex, part)| Some((at_vertex.get(&vertex)?, part)));
+    own.flat_map(|(own, part)| own.iter().map(move |at| (*at, part))).collect()
 }
 
 /// The longest edge of a triangle at a node of each part (length); `triangles` have all that lie there on this rank. **Collective**

@@ -57,24 +57,31 @@ impl ContactPressure<'_> {
     }
 
     /// Parameter of Γ_C at which an edge between two materials ends within a zone, or at an end of it, and towards which λ grows without
-    /// bound (Bogy 1971), as far as this mesh tells, where it is among the largest of the zone.
+    /// bound (Bogy 1971), as far as this mesh tells, where it is among the largest of the zone. A smooth pressure, however steep, goes on
+    /// rising on the other side.
     pub fn grows_at_joint(&self, zone: &Zone) -> Option<f64> {
-        self.rows_at_joints(zone).into_iter().find(|(_, row)| self.steepens(*row, GROWS_AT_JOINTS)).map(|(joint, _)| joint)
+        let height = |k: usize| self.value(k, 0.5);
+        let goes_on = |near: usize, [next, far]: [usize; 2]| height(near) < height(next) && height(next) < height(far);
+        let rows = self.rows_at_joints(zone).into_iter();
+        let mut grown = rows.filter(|(_, row, across)| {
+            !across.is_some_and(|across| goes_on(row[0], across)) && self.steepens(*row, GROWS_AT_JOINTS)
+        });
+        grown.next().map(|(joint, ..)| joint)
     }
 
     /// How much λ varies beside such a place over three segments, by the largest λ of the zone: as long as that is much, it may grow
     /// without bound on finer meshes.
     pub fn variation_at_joints(&self, zone: &Zone) -> f64 {
-        let variation = |(_, row): (f64, [usize; 3])| {
+        let variation = |(_, row, _): (f64, [usize; 3], Option<[usize; 2]>)| {
             let [near, next, far] = row.map(|k| self.value(k, 0.5));
             (near - next).abs().max((next - far).abs()).max((near - far).abs())
         };
         self.rows_at_joints(zone).into_iter().map(variation).fold(0.0, f64::max) / self.peak_of(zone)
     }
 
-    /// Three segments of a zone in a row from each place on at which an edge between two materials ends, with its parameter, where the
-    /// first of them is among the highest.
-    fn rows_at_joints(&self, zone: &Zone) -> Vec<(f64, [usize; 3])> {
+    /// Three segments of a zone in a row from each place on at which an edge between two materials ends, with its parameter and two
+    /// segments in a row on its other side, where the first of the three is among the highest.
+    fn rows_at_joints(&self, zone: &Zone) -> Vec<(f64, [usize; 3], Option<[usize; 2]>)> {
         let (boundary, least) = (&self.contact.boundary, AMONG * self.peak_of(zone));
         let count = boundary.segments() as isize;
         let within_zone = |k: isize| {
@@ -87,13 +94,13 @@ impl ContactPressure<'_> {
             // A segment on both sides of the joint says nothing of either.
             let before = if z > 1.0 - ASIDE { at } else { at.wrapping_sub(1) } as isize;
             let behind = if z < ASIDE { at } else { at + 1 } as isize;
-            [(before, -1), (behind, 1)].into_iter().filter_map(move |(first, way)| {
+            [(before, -1, behind), (behind, 1, before)].into_iter().filter_map(move |(first, way, across)| {
                 let [a, b, c] = [0, 1, 2].map(|i| within_zone(first + way * i));
-                Some((joint, [a?, b?, c?]))
+                Some((joint, [a?, b?, c?], within_zone(across).zip(within_zone(across - way)).map(|(near, far)| [near, far])))
             })
         };
         let rows = self.contact.joints.iter().flat_map(of_joint);
-        rows.filter(|(_, row)| self.value(row[0], 0.5) > least).collect()
+        rows.filter(|(_, row, _)| self.value(row[0], 0.5) > least).collect()
     }
 
     /// Whether a zone reaches an end of Γ_C where one of the bodies has a corner and the other goes on.
@@ -255,6 +262,10 @@ mod tests {
         assert!(grows_at_joint(0.97, |r| if r.abs() < 0.15 { 0.5 } else { power(r) }), "its own segment says nothing");
         assert!(!grows_at_joint(1.0, |r| sides(r, [0.01, 6.0])), "a jump between two even pressures");
         assert!(!grows_at_joint(1.0, |r| 1.0 - r * r), "the middle of a round contact");
+        assert!(
+            !grows_at_joint(1.0, |r| (2.0 * r).exp()) && !grows_at_joint(1.0, |r| (-2.0 * r).exp()),
+            "a steep smooth pressure"
+        );
         assert!(!grows_at_joint(1.0, |r| 4.0 * (r - 0.9).abs().powf(-0.5) + power(r)), "far below the largest");
     }
 

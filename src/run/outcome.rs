@@ -19,7 +19,7 @@ pub enum RunError {
     Input(String),
     /// The same, in words that begin with a key; the caller puts the case file before them.
     Key(String),
-    /// Somebody has changed the input, or has put another result where this one belongs; on every rank alike: 1.
+    /// Somebody has changed the input, or the result is in another place than it was meant for; on every rank alike: 1.
     Overtaken(String),
     /// PETSc, MPI or the disk failed, perhaps on this rank alone: 1.
     Failed(String),

@@ -360,7 +360,7 @@ impl<'a> Conditions<'a> {
 
 fn describe(piece: usize, pieces: &[Extent], motion: &DVector<f64>) -> Mechanism {
     let moves = [0, 1, 2].map(|k| motion[3 * piece + k]);
-    // What nothing holds may go both ways.
+    // A shift that nothing holds may go both ways; a turn is told without its way.
     let way = if moves[0].abs() < moves[1].abs() { moves[1] } else { moves[0] };
     describe_motion(piece, pieces, moves.map(|part| part * way.signum()))
 }

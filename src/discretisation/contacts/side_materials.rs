@@ -6,8 +6,11 @@
 
 use crate::contact::ContactBoundary;
 use crate::discretisation::scene::Scene;
-use crate::mesh::{BoundaryEdge, Level};
+use crate::mesh::{BoundaryEdge, EdgeNode, Level};
 use std::collections::HashSet;
+
+/// Places nearer than this share of Γ_C are one.
+const SAME: f64 = 1e-9;
 
 /// Young's moduli of the parts beside both boundaries of a contact; most boundaries have one part.
 pub struct SideMaterials<'s> {
@@ -37,9 +40,15 @@ impl<'s> SideMaterials<'s> {
 
     /// Parameters of Γ_C at which edges between two materials of a body end.
     pub fn joints(&self, boundary: &ContactBoundary, edges: &[Vec<BoundaryEdge>; 2], level: Level) -> Vec<f64> {
-        let vertex = |edge: &BoundaryEdge| edge.nodes[0].vertex(&self.scene.mesh, level);
-        let starts_there = |edge: &&BoundaryEdge| vertex(edge).is_some_and(|vertex| self.joints.contains(&vertex));
-        edges.iter().flatten().filter(starts_there).map(|edge| boundary.foot(edge.points[0])).collect()
+        let is_joint = |node: EdgeNode| node.vertex(&self.scene.mesh, level).is_some_and(|vertex| self.joints.contains(&vertex));
+        let ends = edges.iter().flatten().flat_map(|edge| [0, 1].map(|end| (edge.nodes[end], edge.points[end])));
+        let [first, last] = boundary.ends();
+        let near = SAME * (last - first);
+        let feet = ends.filter(|(node, _)| is_joint(*node)).map(|(_, place)| boundary.foot(place));
+        let mut feet: Vec<f64> = feet.filter(|foot| (first - near..=last + near).contains(foot)).collect();
+        feet.sort_by(f64::total_cmp);
+        feet.dedup_by(|a, b| *a - *b < near);
+        feet
     }
 
     /// The moduli by which the softer body is told, whose edges rule the length of the segments. Where one body is softer here

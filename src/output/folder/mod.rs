@@ -140,7 +140,8 @@ impl ResultFolder {
         })
     }
 
-    /// Gives the result, whose target is refused or taken, the name of its temporary folder without what hides it: nothing solved is lost.
+    /// Gives the result, whose target is refused or taken, the name of its temporary folder without what hides it: nothing that is
+    /// solved is lost.
     fn elsewhere(mut self, refusal: OutputError) -> Result<(), OutputError> {
         let hidden = self.temporary.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let place = self.temporary.with_file_name(hidden.trim_start_matches('.').trim_end_matches(".partial"));

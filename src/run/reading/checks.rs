@@ -1,7 +1,7 @@
 //! A case against its mesh, before anything is solved: whether the mean motions that it holds are free to be held, and whether
 //! expected values have places and formulas values.
 
-use crate::body::{HeldMode, MeanHold, Springs, Support, rigid_displacement};
+use crate::body::{Body, BodyPart, HeldMode, MeanHold, Springs, Support, rigid_displacement};
 use crate::case::{BodyExact, Case, ContactExact, LambdaExact};
 use crate::contact::ContactBoundary;
 use crate::discretisation::Contact;
@@ -10,6 +10,29 @@ use crate::mesh::MacroMesh;
 
 /// A motion that moves a supported point, in the direction of the support, by less than this share of itself leaves it at rest.
 const AT_REST: f64 = 1e-9;
+
+/// Moduli that are farther apart leave no number of both within those that a computer has: their products are zero, or without bound.
+const MOST_APART: f64 = 1e60;
+
+/// Young's moduli of all bodies can be added up and multiplied.
+///
+/// # Errors
+/// Words that begin with the key, and tell the remedy.
+pub fn check_moduli(case: &Case) -> Result<(), String> {
+    let bodies = case.bodies.iter().filter(|body| case.tool_of(&body.name).is_none());
+    let young = |part: &BodyPart| part.material.young;
+    let parts: Vec<(&Body, &BodyPart)> = bodies.flat_map(|body| body.parts.iter().map(move |part| (body, part))).collect();
+    let hardest = parts.iter().map(|(_, part)| young(part)).fold(0.0, f64::max);
+    match parts.iter().find(|(_, part)| hardest / young(part) > MOST_APART) {
+        None => Ok(()),
+        Some((body, part)) => Err(format!(
+            "body.{}{}: young = {:e} beside {hardest:e}: there is no computing with both; take a rigid tool for what is so hard, or leave out what is so soft",
+            body.name,
+            if body.has_parts() { format!(".part.{}", part.name) } else { String::new() },
+            young(part)
+        )),
+    }
+}
 
 /// A body is of one piece, has vertices enough, and nothing but contact resists the motions whose mean is held.
 ///

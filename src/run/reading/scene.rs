@@ -9,7 +9,7 @@ use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, touching_surfa
 use crate::petsc::Session;
 use crate::procedure::Procedure;
 use crate::run::outcome::RunError;
-use crate::run::reading::checks::{check_exact, check_means};
+use crate::run::reading::checks::{check_exact, check_means, check_moduli};
 use crate::run::reading::names::{Names, together, unknown_part};
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -61,6 +61,7 @@ fn completed(case: &Case, mut mesh: MacroMesh) -> Result<MacroMesh, String> {
     mesh.bend_onto_splines(&fitted.collect::<Vec<_>>());
     add_points(case, &mut mesh)?;
     add_grades(case, &mut mesh)?;
+    check_moduli(case)?;
     check_means(case, &mesh)?;
     check_springs(case, &mesh)?;
     check_temperatures(case, &mesh)?;

@@ -15,7 +15,7 @@ use crate::run::telling::report::memory;
 use crate::run::telling::{interruption, progress};
 use crate::run::verdict::expected::expected_values;
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 impl Run<'_> {
     /// Writes what tells the whole result, and prints the verdict. **Collective**
@@ -84,21 +84,35 @@ impl Run<'_> {
         let stress = found.stress()?;
         let at_node = |part: usize, node: usize| stress.at(part, node);
         progress::write_files();
-        if let Err(refusal) = self.session.agree(fields::write(folder, found, at_node)) {
+        self.write_fields(found, summary, traces, at_node);
+        if self.draws { self.write_figures(found, summary, (traces, peaks), adaptation, at_node) } else { Ok(()) }
+    }
+
+    /// Fields of the bodies and along the contacts that have figures; where there is no room for them the result goes without.
+    /// **Collective**
+    fn write_fields(
+        &self,
+        found: &Evaluation,
+        summary: &Summary,
+        traces: &[Vec<ContactPoint>],
+        stress: impl Fn(usize, usize) -> [f64; 4],
+    ) {
+        let folder = &self.files;
+        let shown: BTreeSet<&str> = summary.with_figures().into_iter().filter(|_| self.session.rank() == 0).collect();
+        let pairs = found.problem.contacts.iter().zip(traces);
+        let pairs = pairs.filter(|(contact, _)| shown.contains(contact.pair.name.as_str()));
+        let curves = pairs.map(|(contact, points)| (folder.join(format!("contact_{}.vtu", contact.pair.name)), points));
+        let curves: Vec<(PathBuf, &Vec<ContactPoint>)> = curves.collect();
+        let write_curves = || curves.iter().try_for_each(|(path, points)| Ok(vtk::write_curve(path, points)?));
+        let written = fields::write(folder, found, stress).and_then(|()| write_curves());
+        if let Err(refusal) = self.session.agree(written) {
             // They are the largest files: where there is no room for them there may be for all others.
             fields::remove(folder, self.session);
+            curves.iter().for_each(|(path, _)| _ = std::fs::remove_file(path));
             // There is room when all ranks have removed their pieces.
             self.session.any(true);
             self.report.warn(&format!("there are no fields in the result: {refusal}"));
         }
-        if self.session.rank() == 0 {
-            let curve = |name: &str| folder.join(format!("contact_{name}.vtu"));
-            let shown: BTreeSet<&str> = summary.with_figures().into_iter().collect();
-            let pairs = found.problem.contacts.iter().zip(traces);
-            let mut pairs = pairs.filter(|(contact, _)| shown.contains(contact.pair.name.as_str()));
-            pairs.try_for_each(|(contact, points)| vtk::write_curve(&curve(&contact.pair.name), points))?;
-        }
-        if self.draws { self.write_figures(found, summary, (traces, peaks), adaptation, at_node) } else { Ok(()) }
     }
 }
 

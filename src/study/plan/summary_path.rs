@@ -42,9 +42,11 @@ impl SummaryPath {
         Self { text: dotted(&names), names }
     }
 
-    /// Whether it leads through the only entry of a table.
-    pub fn means_only(&self) -> bool {
-        self.names.iter().any(|name| name == ONLY)
+    /// Whether it asks for the only entry of a table that has several.
+    pub fn is_ambiguous(&self, summary: &Value) -> bool {
+        let Some(at) = self.names.iter().position(|name| name == ONLY) else { return false };
+        let table = self.names[..at].iter().try_fold(summary, |value, name| step(value, name)).and_then(Value::as_object);
+        table.is_some_and(|table| table.len() > 1)
     }
 
     /// What stands there; null if nothing does. A number is a place in a list, from 0, and `*` the only entry of a table.

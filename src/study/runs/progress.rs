@@ -50,7 +50,8 @@ impl Progress {
         for path in plan.errors.iter().chain([&plan.time]).chain(&plan.columns) {
             let has_summary = results.iter().any(Ended::has_result);
             if has_summary && results.iter().all(|ended| path.of(&ended.summary).is_null()) {
-                let remedy = if path.means_only() {
+                let is_ambiguous = results.iter().any(|ended| path.is_ambiguous(&ended.summary));
+                let remedy = if is_ambiguous {
                     "`*` means the only one, and there are several: write its name"
                 } else {
                     "is it spelt right?"

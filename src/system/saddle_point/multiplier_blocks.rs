@@ -64,7 +64,7 @@ pub struct MultiplierBlocks {
     pub own: Vec<usize>,
     /// Number of each multiplier: by rank, along the boundaries within a rank.
     number: Vec<usize>,
-    /// Nodes of this rank in each column of the transpose, whatever the active set.
+    /// Nodes of this rank in each column of the transpose, whatever the active set; none if that has no entries of its own.
     columns: Vec<Vec<usize>>,
     /// `C`, unscaled.
     pub(super) jumps: SparseRows,
@@ -100,10 +100,10 @@ impl MultiplierBlocks {
             let column = corrected(rows, all, &jumps, j);
             column.iter().map(|(node, _)| *node).filter(|node| space.own.contains(node)).collect()
         };
-        let columns: Vec<Vec<usize>> = (0..owners.len()).map(own_nodes).collect();
+        let is_stored = form == Form::Plain || owners.is_empty() || problem.jumps().next().is_some();
+        let columns: Vec<Vec<usize>> = if is_stored { (0..owners.len()).map(own_nodes).collect() } else { Vec::new() };
         let corner = if problem.jumps().next().is_some() { SchurPattern::Mixed } else { SchurPattern::Diagonal };
         let coupling = coupling_matrix(rows, &own, space, session)?;
-        let is_stored = form == Form::Plain || owners.is_empty() || problem.jumps().next().is_some();
         let transpose = match is_stored {
             true => transpose_matrix(&columns, owners, own.len(), space, session)?,
             false => coupling.transposed()?,
@@ -144,8 +144,11 @@ impl MultiplierBlocks {
                 self.coupling.insert(&at, entries.unknowns.as_flattened(), entries.values.as_flattened())?;
                 self.set_corner(problem, active, augmentation, i)?;
             }
+            if !self.is_stored {
+                continue;
+            }
             let column = corrected(rows, augmentation, &self.jumps, i);
-            if !self.is_stored || column.is_empty() && self.jumps[i].is_empty() {
+            if column.is_empty() && self.jumps[i].is_empty() {
                 continue;
             }
             let value = |node: &usize| column.binary_search_by_key(node, |entry| entry.0).map_or(Point::zeros(), |k| column[k].1);
