@@ -171,6 +171,16 @@ pub fn finest_numbering(scene: &Scene) -> Result<Numbering, SystemError> {
     Ok(numbering)
 }
 
+impl Scene {
+    /// The nodes of the mesh as it was read.
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if there are too many.
+    pub fn macro_numbering(&self) -> Result<Numbering, SystemError> {
+        finest_numbering(&self.coarser(self.refine))
+    }
+}
+
 /// Spaces of all levels that multigrid uses, coarsest first. Levels with few unknowns are brought together on fewer ranks.
 ///
 /// # Errors

@@ -1,8 +1,8 @@
 //! A contact of the scene, placed and cut, with the edges of this rank.
 
 use crate::contact::{
-    Configuration, ContactBoundary, Displacement, Distance, Facing, GapChoice, Jump, Known, Multipliers, Pair, Stabilise, Zone,
-    jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
+    Configuration, ContactBoundary, Displacement, Distance, Facing, GapChoice, Jump, Known, MultiplierSpace, Multipliers, Pair,
+    Stabilise, Zone, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
 };
 use crate::discretisation::contacts::side_materials::SideMaterials;
 use crate::discretisation::error::SystemError;
@@ -14,6 +14,10 @@ use std::collections::HashSet;
 
 /// Segments are short if they miss the safe ratio by more than rounding to a whole number can.
 const SHORT: f64 = 0.95;
+
+/// The same of continuous multipliers, which are stable down to .56 edges with P2 and .75 with P1. Where Γ_C follows the ends of
+/// contact its segments become shorter by a fifth, and these ends find no rest beside a jump term that comes and goes.
+const SHORT_CONTINUOUS: f64 = 0.75;
 
 /// One contact of the scene: its boundary, its multipliers, and the edges of each body that this rank owns.
 #[derive(Clone)]
@@ -135,7 +139,7 @@ impl Contact {
         let joints = materials.joints(&boundary, &all, numbering.level);
         let modulus_of = |i: usize| multipliers.mean_beside(i, &moduli);
         let multiplier_moduli: Vec<f64> = (0..multipliers.count()).map(modulus_of).collect();
-        let (multipliers, jumps) = if is_stabilised(pair, segment_ratio < SHORT * safe_ratio) {
+        let (multipliers, jumps) = if is_stabilised(pair, segment_ratio < short(pair.space) * safe_ratio) {
             let own = jumps(&multipliers, &edge_lengths, &multiplier_moduli);
             let numbered = own.into_iter().map(|jump| Jump { rows: jump.rows.map(|i| first + i), ..jump });
             (multipliers.stabilised(), numbered.collect())
@@ -173,7 +177,7 @@ impl Contact {
 
     /// Whether its segments are shorter than its pair of spaces allows.
     pub fn has_short_segments(&self) -> bool {
-        self.segment_ratio < SHORT * self.safe_ratio
+        self.segment_ratio < short(self.pair.space) * self.safe_ratio
     }
 
     /// Length of the longest edge of the softer body that its shortest segment meets.
@@ -274,6 +278,11 @@ fn is_loaded(scene: &Scene, edges: &[u32]) -> bool {
     names.filter_map(|name| scene.mesh.boundary(name)).flat_map(|boundary| &boundary.edges).any(|edge| own.contains(edge))
 }
 
+/// Share of the safe ratio below which segments are short.
+fn short(space: MultiplierSpace) -> f64 {
+    if space == MultiplierSpace::P1Continuous { SHORT_CONTINUOUS } else { SHORT }
+}
+
 /// Whether a contact gets the jump term: as the case asks, or where its segments are short.
 fn is_stabilised(pair: &Pair, has_short_segments: bool) -> bool {
     match pair.stabilise {
@@ -294,7 +303,6 @@ fn check_facing(scene: &Scene, numbering: &Numbering, contacts: &[Contact]) -> R
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::MultiplierSpace;
     use crate::discretisation::levels::finest_numbering;
     use crate::discretisation::samples::{blocks, pair};
 

@@ -6,7 +6,7 @@ use super::proposals::short;
 use crate::body::{Applied, BodyPart, applied_forces};
 use crate::case::Case;
 use crate::contact::{GapChoice, Pair, drawn_gap};
-use crate::discretisation::{Scene, finest_numbering};
+use crate::discretisation::Scene;
 use crate::geometry::{Formula, Point};
 use crate::mesh::Numbering;
 use crate::output::Units;
@@ -53,7 +53,7 @@ fn resultant(scene: &Scene, load: &DrawnLoad) -> Option<(Point, f64)> {
     let mut pieces: Vec<Point> = Vec::new();
     if let Some(own) = load.part {
         // The mesh of the file is fine enough for that.
-        let numbering = finest_numbering(&scene.coarser(scene.refine)).ok()?;
+        let numbering = scene.macro_numbering().ok()?;
         let nothing = || [0, 1].map(|_| Formula::constant(0.0));
         let all = scene.parts().into_iter().enumerate().map(|(at, part)| {
             let force = if at == own { part.force.clone() } else { nothing() };

@@ -2,7 +2,7 @@
 
 use crate::body::{Applied, applied_forces};
 use crate::contact::Law;
-use crate::discretisation::{Scene, finest_numbering};
+use crate::discretisation::Scene;
 use crate::geometry::Point;
 use crate::mesh::lattice;
 
@@ -56,7 +56,7 @@ fn held_bodies(scene: &Scene) -> Vec<bool> {
 /// The force on each body, on the mesh of the file.
 fn forces_on_bodies(scene: &Scene) -> Option<Vec<Point>> {
     let mesh = &scene.mesh;
-    let numbering = finest_numbering(&scene.coarser(scene.refine)).ok()?;
+    let numbering = scene.macro_numbering().ok()?;
     let mut body_of = vec![0; numbering.node_count()];
     for (at, triangle) in mesh.triangles.iter().enumerate() {
         let numbers = numbering.triangle(mesh, at);
