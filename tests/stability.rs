@@ -60,6 +60,15 @@ fn the_jump_term_knows_no_unit_of_stress() {
     }
 }
 
+/// With every pivot taken for zero no solve moves: then the solver is told, and no contact condition is asked of what it has left.
+#[test]
+fn a_solve_that_fails_is_told_as_such() {
+    let run = bars(2, "p1-discontinuous", 176, "fieldsplit").set("contact.seam.stabilise", true).ranks(1);
+    let ended = run.petsc("-fieldsplit_lambda_pc_factor_zeropivot 1e30").ended();
+    assert_eq!(ended.code, Some(3), "{}", ended.said());
+    assert!(ended.value("/reason").to_string().contains("linear solver: KSP_DIVERGED_PC_FAILED"), "{}", ended.said());
+}
+
 #[test]
 fn auto_adds_the_jump_term_where_segments_are_short_and_says_so() {
     let ended = bars(2, "p1-discontinuous", 176, "fieldsplit").converged();

@@ -15,7 +15,7 @@ pub struct ZoneErrors {
     pub stress_at_peak: [f64; 2],
     /// λ against its reconstruction.
     pub roughness: Option<Roughness>,
-    /// Whether the material of a body changes in the middle of the zone.
+    /// Whether an edge between two materials ends in the middle of the zone.
     pub has_joint: bool,
 }
 

@@ -134,12 +134,13 @@ struct Signs {
     left: Option<f64>,
     /// How coarse the segments are.
     rough: Option<f64>,
-    /// Whether the material of a body changes there.
+    /// Whether an edge between two materials ends in the middle of the zone.
     has_joint: bool,
 }
 
 impl Signs {
-    /// The smaller one of stress and difference, the larger one beside λ without bound, but no less than the segments allow.
+    /// The smaller one of stress and difference, the larger one where materials meet and λ may have no bound, but no less than the
+    /// segments allow.
     fn error(&self) -> Option<f64> {
         let chosen = if self.has_joint { f64::max } else { f64::min };
         let error = [self.stress, self.left].into_iter().flatten().reduce(chosen);

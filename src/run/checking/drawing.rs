@@ -333,7 +333,8 @@ pub(super) fn vector(v: Point) -> String {
     format!("({}, {})", number_text(v.x), number_text(v.y))
 }
 
-/// What drives a stiff plate or a tool, and how it may move: all that is not given as a force is held or free.
+/// What drives a stiff plate or a tool: its force and moment, whole ones in a case with a thickness, and those of its motions that are
+/// given.
 fn driven_words(motion: &RigidSet, thickness: f64, units: &Units) -> String {
     let [fx, fy, moment] = motion.applied.map(|part| part * thickness);
     let force = Point::new(fx, fy);

@@ -1,6 +1,6 @@
 //! Bodies that nothing but contact holds, and that their loads pull away from all of it: no pressure balances them.
 
-use crate::body::{Applied, applied_forces};
+use crate::body::{Applied, RigidNodes, applied_forces};
 use crate::contact::Law;
 use crate::discretisation::Scene;
 use crate::geometry::Point;
@@ -46,7 +46,7 @@ fn held_bodies(scene: &Scene) -> Vec<bool> {
     let named = scene.means.iter().filter_map(|hold| mesh.bodies.iter().position(|name| *name == hold.body));
     named.for_each(|body| held[body] = true);
     for set in &scene.rigid {
-        if let crate::body::RigidNodes::Boundaries(names) = &set.nodes {
+        if let RigidNodes::Boundaries(names) = &set.nodes {
             mesh.edges_on(names).for_each(|edge| held[mesh.body_beside(edge)] = true);
         }
     }
