@@ -92,7 +92,7 @@ def memory_section(lines):
         ])
     return "\n\n".join([
         "## Memory of a rank",
-        "Every rank holds the macro mesh, Γ_C and its multipliers. Resident memory; pages of libraries count on every rank.",
+        "Every rank holds the macro mesh, [Γ_C](method.md#what-is-solved) and its multipliers. Resident memory; pages of libraries count on every rank.",
         table(["scene", "ranks", "MiB of the largest rank", "more than the small mesh"], rows),
     ])
 

@@ -68,6 +68,27 @@ impl Units {
     }
 }
 
+/// Keys of cases and of `summary.json` whose values are lengths, stresses, and forces of contacts or supports.
+const LENGTHS: [&str; 9] = ["approach", "depth", "displacement_max", "interference", "length", "radius", "ux", "uy", "width"];
+const PRESSURES: [&str; 3] = ["pressure", "pressure_max", "young"];
+const RESULTANTS: [&str; 1] = ["force"];
+
+impl Units {
+    /// The head of a column that is named by a place in a case or in `summary.json`: `contact.seam.force [N/mm]`. Accuracies and
+    /// estimates are shares, whatever they are of.
+    pub fn of_place(&self, place: &str) -> String {
+        let key = place.rsplit('.').next().unwrap_or_default();
+        let is_share = ["accuracy", "estimate", "errors"].iter().any(|table| place.starts_with(table));
+        match key {
+            _ if is_share => place.to_owned(),
+            _ if LENGTHS.contains(&key) => self.length().of(place),
+            _ if PRESSURES.contains(&key) => self.stress().of(place),
+            _ if RESULTANTS.contains(&key) => self.resultant().of(place),
+            _ => place.to_owned(),
+        }
+    }
+}
+
 impl Unit<'_> {
     /// Its name: `mm`, or `unit of length`.
     pub fn words(&self) -> String {
@@ -101,6 +122,15 @@ impl Unit<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn columns_are_named_by_what_they_hold() {
+        let units = Units::new(Some("mm"), Some("N"), false);
+        let heads = ["contact.a.force", "body.b.young", "displacement_max", "accuracy.pressure", "mesh.refine"];
+        let told = ["contact.a.force [N/mm]", "body.b.young [MPa]", "displacement_max [mm]", "accuracy.pressure", "mesh.refine"];
+        assert_eq!(heads.map(|place| units.of_place(place)), told);
+        assert_eq!(heads.map(|place| Units::default().of_place(place)), heads);
+    }
 
     #[test]
     fn stress_and_resultant_follow_from_length_and_force() {

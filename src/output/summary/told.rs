@@ -2,6 +2,7 @@
 
 use super::Summary;
 use super::contact::ContactSummary;
+use crate::geometry::Rounded;
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
@@ -137,6 +138,26 @@ impl Summary {
         Some(format!("{count} contacts: {}; the {which} {WORST}: {}", kinds.join(", "), worst.join(", ")))
     }
 
+    /// What the run says of its contacts at the end: a line for each of a few, one of many.
+    pub fn contact_lines(&self) -> Vec<String> {
+        if let Some(words) = self.contacts_in_words() {
+            return vec![words];
+        }
+        let (force_unit, stress_unit) = (self.units.resultant().after(), self.units.stress().after());
+        let line = |(name, contact): (&String, &ContactSummary)| {
+            let own = self.estimate.contact.get(name);
+            let figure = |what: &str, value: Option<f64>, unit: &str, error: Option<f64>| {
+                let error = error.map_or(String::new(), |error| format!(" to {error:.1e}"));
+                value.map(|value| format!("{what} {}{unit}{error}", Rounded(value)))
+            };
+            let force = figure("force", contact.force, &force_unit, own.and_then(|own| own.force));
+            let peak = figure("largest λ", contact.pressure_max, &stress_unit, own.and_then(|own| own.peak));
+            let figures: Vec<String> = force.into_iter().chain(peak).collect();
+            Some(format!("contact {name}: {}; {}", figures.join(", "), contact.judged.verdict.as_ref()?))
+        };
+        self.contact.iter().filter_map(line).collect()
+    }
+
     fn sorted(&self, order: impl Fn(&ContactSummary, &ContactSummary) -> Ordering) -> Vec<&str> {
         let mut all: Vec<(&String, &ContactSummary)> = self.contact.iter().collect();
         all.sort_by(|a, b| order(a.1, b.1));
@@ -153,7 +174,8 @@ fn by_force(a: &ContactSummary, b: &ContactSummary) -> Ordering {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::summary::ContactTrust;
+    use crate::output::summary::{ContactEstimate, ContactTrust};
+    use crate::output::units::Units;
     use proptest::prelude::*;
 
     fn summary(contacts: &[(Option<bool>, f64)]) -> Summary {
@@ -186,6 +208,17 @@ mod tests {
             let counts = words.is_none_or(|words| bad == 0 || words.contains(&format!("{bad} are not trusted")));
             prop_assert!(counts);
         }
+    }
+
+    #[test]
+    fn few_contacts_have_a_line_each_with_figures_and_verdict() {
+        let mut few =
+            Summary { units: Units::new(Some("mm"), Some("N"), false), ..summary(&[(Some(true), 7.5), (Some(false), 2.0)]) };
+        few.contact.get_mut("c000").expect("it is there").pressure_max = Some(135.0);
+        few.estimate.contact.insert("c000".into(), ContactEstimate { force: Some(1e-3), ..ContactEstimate::default() });
+        let first = "contact c000: force 7.5 N/mm to 1.0e-3, largest λ 135 MPa; trusted";
+        assert_eq!(few.contact_lines(), [first, "contact c001: force 2 N/mm; not trusted: narrow"]);
+        assert_eq!(summary(&[(None, 1.0); 9]).contact_lines().len(), 1);
     }
 
     #[test]

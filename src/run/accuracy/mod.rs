@@ -5,7 +5,7 @@ mod goals;
 mod numbers;
 mod verdict;
 
-pub(super) use extrapolation::sequences;
+pub(super) use extrapolation::{sequences, would_take};
 pub(super) use goals::{estimate, name, of_how_many, request, told};
 pub(super) use verdict::judge;
 

@@ -72,7 +72,7 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     let mut lines = vec![format!("{}: {}", case.name, case.title), format!("mesh: {whole} macro triangles, {words}")];
     lines.extend(case.matched.iter().map(matched));
     lines.extend(body_lines(case));
-    lines.extend(contact_lines(&at_rest.contacts));
+    lines.extend(contact_lines(&at_rest.contacts, &units(case)));
     lines.extend(acting_lines(case, &scene, &at_rest.numbering));
     if let Some(accuracy) = &case.accuracy {
         lines.push(format!("accuracy asked for: {}; the mesh is adapted to it", accuracy::request(accuracy)));

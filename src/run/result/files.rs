@@ -28,7 +28,7 @@ impl Run<'_> {
         let kind = if overtaken { RunError::Overtaken } else { RunError::Failed };
         self.session.agree(finished.map_err(|error| error.to_string())).map_err(kind)?;
         self.report.table(&summary);
-        summary.contacts_in_words().iter().for_each(|words| self.report.say(words));
+        summary.contact_lines().iter().for_each(|words| self.report.say(words));
         if summary.status == Status::Converged {
             summary.stresses_in_words().iter().for_each(|words| self.report.say(words));
         }

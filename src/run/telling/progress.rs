@@ -3,7 +3,7 @@
 //! A thread of rank 0 writes it to standard error; the run itself only notes what it does. So there is a sign of life in the
 //! longest assembly, and no digit depends on it.
 
-use crate::accuracy::{Accuracy, AdaptedMesh};
+use crate::accuracy::Adaptation;
 use crate::arguments::ShowProgress;
 use crate::output::clock;
 use crate::petsc::{SolveAtWork, solve_at_work};
@@ -38,14 +38,14 @@ struct RunPlace {
     doing: Option<(Option<Work>, Instant)>,
     /// Load step, and how many there are.
     step: Option<(usize, usize)>,
-    /// Number of the mesh that is adapted.
+    /// The meshes that were adapted so far.
+    adaptation: Option<Adaptation>,
+    /// Number of the mesh that is worked on, from the second on.
     mesh: Option<usize>,
     /// Refinement that is solved, and that of the case.
     refine: Option<(usize, usize)>,
     boundary: Option<usize>,
     set: Option<usize>,
-    /// What the last mesh that was adapted is estimated to be off by.
-    estimate: Option<String>,
 }
 
 /// A line that is shown while this is there.
@@ -190,25 +190,30 @@ impl ProgressLine {
 impl RunPlace {
     fn observe(&mut self, event: &Event) {
         match event {
-            Event::Refinement { refine, last } => self.refine = Some((*refine, *last)),
+            Event::Refinement { refine, last } => {
+                self.refine = Some((*refine, *last));
+                self.mesh = self.adaptation.as_ref().map(|adaptation| adaptation.meshes.len() + 1);
+            }
             Event::Coarse { .. } => (self.boundary, self.set) = (None, None),
             Event::Begin(_) => (self.boundary, self.set) = (None, Some(1)),
             Event::Passed(pass, _) => self.set = Some(pass.iteration + 1),
             Event::Placed(step) => self.boundary = Some(step.iteration + 1),
             Event::Adapted { accuracy, mesh, .. } => {
-                self.mesh = Some(mesh.number + 1);
-                self.estimate = worst(accuracy, mesh);
+                let adaptation = self.adaptation.get_or_insert_with(|| Adaptation::new((*accuracy).clone()));
+                adaptation.meshes.push((*mesh).clone());
             }
             Event::AtRest { .. } | Event::Solver(_) | Event::Again { .. } => {}
         }
     }
 }
 
-/// The goal of which a mesh misses most, with its estimate and what is asked; nothing if nothing is known.
-fn worst(accuracy: &Accuracy, mesh: &AdaptedMesh) -> Option<String> {
-    let known = accuracy.goals.iter().zip(&mesh.errors).filter_map(|(goal, error)| Some((goal, (*error)?)));
-    let (goal, error) = known.max_by(|a, b| (a.1 / a.0.tolerance).total_cmp(&(b.1 / b.0.tolerance)))?;
-    Some(format!("{} {error:.1e} of {:.0e}", accuracy::name(&goal.quantity), goal.tolerance))
+/// The goal of the last mesh that is farthest from what is asked, with its estimate, and what it would take by the last three.
+fn expected(adaptation: &Adaptation) -> Option<String> {
+    let goals = adaptation.accuracy.goals.iter().zip(&adaptation.meshes.last()?.errors).enumerate();
+    let known = goals.filter_map(|(place, (goal, error))| Some((place, goal, (*error)?)));
+    let (place, goal, error) = known.max_by(|a, b| (a.2 / a.1.tolerance).total_cmp(&(b.2 / b.1.tolerance)))?;
+    let needed = accuracy::would_take(adaptation, place).unwrap_or_default();
+    Some(format!("{} {error:.1e} of {:.0e}{needed}", accuracy::name(&goal.quantity), goal.tolerance))
 }
 
 /// What the line says.
@@ -216,7 +221,7 @@ fn words(place: &RunPlace, solve: Option<SolveAtWork>, elapsed: Duration) -> Str
     let mut words = vec![clock(elapsed)];
     words.extend(place.step.map(|(number, count)| format!("step {number} of {count}")));
     words.extend(place.mesh.map(|number| format!("mesh {number}")));
-    words.extend(place.estimate.clone());
+    words.extend(place.adaptation.as_ref().and_then(expected));
     words.extend(place.refine.filter(|(_, last)| *last > 0).map(|(now, last)| format!("refine {now} of {last}")));
     // What is looked at is over, and the numbers are those of the next.
     if !matches!(place.doing, Some((None | Some(Work::Recovery), _))) {
@@ -257,6 +262,7 @@ fn time_left(solve: &SolveAtWork, seconds: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::accuracy::{Accuracy, AdaptedMesh, Goal, Quantity};
 
     fn solve(iterations: usize, first: f64, residual: f64) -> SolveAtWork {
         SolveAtWork { started: Instant::now(), iterations, first, residual, tolerance: 1e-8, norm: 1.0 }
@@ -284,6 +290,33 @@ mod tests {
         assert_eq!(words(&step, None, Duration::from_secs(3600)), "1:00:00, step 2 of 6, assembling (0 s)");
         let written = RunPlace { doing: Some((None, Instant::now())), ..place };
         assert_eq!(words(&written, None, Duration::from_secs(64)), "1:04, refine 7 of 8, writing results (0 s)");
+    }
+
+    /// A mesh is the second from when it is begun on, not while the files of the first one are written.
+    #[test]
+    fn a_mesh_that_is_adapted_has_its_number_and_what_is_expected() {
+        let goal = Goal { quantity: Quantity::Energy, tolerance: 1e-3 };
+        let accuracy = Accuracy { goals: vec![goal], most_unknowns: None, most_seconds: None };
+        let mut place = RunPlace::default();
+        let told = |place: &RunPlace| words(place, None, Duration::ZERO);
+        for (number, error) in [(1, 8e-3), (2, 4e-3), (3, 2e-3)] {
+            let mesh = AdaptedMesh {
+                number,
+                macro_triangles: 8,
+                refine: 0,
+                unknowns: 1000 << number,
+                cycles: Vec::new(),
+                errors: vec![Some(error)],
+                true_errors: Vec::new(),
+                seconds: 0.0,
+            };
+            let adaptation = place.adaptation.get_or_insert_with(|| Adaptation::new(accuracy.clone()));
+            adaptation.meshes.push(mesh);
+            assert!(!told(&place).contains(&format!("mesh {}", number + 1)));
+            place.observe(&Event::Refinement { refine: 0, last: 0 });
+            assert!(told(&place).starts_with(&format!("0:00, mesh {}, energy", number + 1)), "{}", told(&place));
+        }
+        assert!(told(&place).contains("energy 2.0e-3 of 1e-3, which would take some 16 000 unknowns"), "{}", told(&place));
     }
 
     #[test]

@@ -7,8 +7,8 @@ use crate::case::{Case, LoadStep};
 use crate::discretisation::{Contact, Scene};
 use crate::element::Order;
 use crate::mesh::Numbering;
-use crate::output::Summary;
 use crate::output::summary::{MOST_TOLD, Memory, Provenance, Status, Time, WORST, clauses, listed};
+use crate::output::{Summary, Units};
 use crate::petsc::Session;
 use crate::procedure::Event;
 use crate::run::accuracy;
@@ -16,7 +16,7 @@ use crate::run::memory::value;
 use crate::run::reading::origin;
 use crate::run::run_options::RunOptions;
 use crate::run::verdict::warnings::before::{locking, short_segments};
-use crate::run::words::{length, title};
+use crate::run::words::{length, title, units};
 use std::collections::HashSet;
 use std::io::Write;
 use std::path::Path;
@@ -31,6 +31,7 @@ pub struct Report {
     started: Instant,
     /// Whether the mesh is adapted: the one of the file, and its segments, are a beginning only.
     adapts: bool,
+    units: Units,
     /// What warnings begin with: the load step that they are of.
     of_step: String,
 }
@@ -40,7 +41,7 @@ impl Report {
     pub fn new(case: &Case, options: &RunOptions, session: &Session) -> Self {
         let first = session.rank() == 0;
         let (speaks, ranks, adapts) = (first && !options.quiet, session.size(), case.accuracy.is_some());
-        Self { speaks, first, ranks, started: options.started, adapts, of_step: String::new() }
+        Self { speaks, first, ranks, started: options.started, adapts, units: units(case), of_step: String::new() }
     }
 
     /// The report of a load step, which it announces.
@@ -104,9 +105,10 @@ impl Report {
             Event::Placed(step) => {
                 let figure = |value: Option<f64>| value.map_or("-".to_string(), |value| format!("{value:.1e}"));
                 let flipped = step.flipped.map_or("-".to_string(), |count| count.to_string());
-                let (length, moved, du) = (length(step.length), figure(step.moved), figure(step.du));
+                let (length, unit, moved, du) =
+                    (length(step.length), self.units.length().after(), figure(step.moved), figure(step.du));
                 self.say(&format!(
-                    "boundary {}: length {length}, moves by {moved}, displacement by {du}, multipliers changed {flipped}",
+                    "boundary {}: length {length}{unit}, moves by {moved}, displacement by {du}, multipliers changed {flipped}",
                     step.iteration
                 ));
             }
@@ -147,7 +149,7 @@ impl Report {
         let multipliers: usize = contacts.iter().map(|contact| contact.multipliers.count()).sum();
         let first = if self.adapts { "the first mesh: " } else { "" };
         self.say(&format!("{first}{triangles} {order} triangles, {unknowns} unknowns, {multipliers} multipliers"));
-        contact_lines(contacts).iter().for_each(|line| self.say(line));
+        contact_lines(contacts, &self.units).iter().for_each(|line| self.say(line));
         if level.intervals > 1 {
             self.bent(scene, contacts);
         }
@@ -241,7 +243,8 @@ impl Report {
 }
 
 /// A line for each contact; of many one for all.
-pub fn contact_lines(contacts: &[Contact]) -> Vec<String> {
+pub fn contact_lines(contacts: &[Contact], units: &Units) -> Vec<String> {
+    let unit = units.length().after();
     if contacts.len() > MOST_TOLD {
         let range = |all: &mut dyn Iterator<Item = f64>| {
             all.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], one| [least.min(one), most.max(one)])
@@ -251,12 +254,15 @@ pub fn contact_lines(contacts: &[Contact]) -> Vec<String> {
         let multipliers: usize = contacts.iter().map(|contact| contact.multipliers.count()).sum();
         let count = contacts.len();
         return vec![format!(
-            "{count} contacts: {fewest} to {most} segments over lengths of {shortest} to {longest}, {multipliers} multipliers"
+            "{count} contacts: {fewest} to {most} segments over lengths of {shortest} to {longest}{unit}, {multipliers} multipliers"
         )];
     }
     let words = |contact: &Contact| {
         let (name, segments, length) = (&contact.pair.name, contact.boundary.segments(), length(contact.boundary.length()));
-        format!("contact {name}: {segments} segments over a length of {length}, {} multipliers", contact.multipliers.count())
+        format!(
+            "contact {name}: {segments} segments over a length of {length}{unit}, {} multipliers",
+            contact.multipliers.count()
+        )
     };
     contacts.iter().map(words).collect()
 }

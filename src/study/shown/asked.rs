@@ -35,8 +35,8 @@ pub fn asked_diagrams(table: &Table, names: &[String]) -> Vec<Diagram> {
         lines.extend(points.iter().any(|(name, _)| name.is_empty()).then(String::new));
         Diagram {
             title: format!("{name}: {} against {}", names[1], names[0]),
-            x: axis(&names[0], points.iter().map(|(_, mark)| mark.x)),
-            y: axis(&names[1], points.iter().map(|(_, mark)| mark.y)),
+            x: axis(table.units.of_place(&names[0]), points.iter().map(|(_, mark)| mark.x)),
+            y: axis(table.units.of_place(&names[1]), points.iter().map(|(_, mark)| mark.y)),
             lines: lines.into_iter().enumerate().map(line).collect(),
             ..Diagram::default()
         }
@@ -57,15 +57,16 @@ fn point(table: &Table, row: usize, [x, y]: [usize; 2], by: &[usize]) -> Option<
 }
 
 /// An axis around values, logarithmic where they span decades.
-fn axis(name: &str, values: impl Iterator<Item = f64>) -> Axis {
+fn axis(name: String, values: impl Iterator<Item = f64>) -> Axis {
     let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
     let logarithmic = low > 0.0 && high > DECADES * low;
-    Axis { name: name.into(), logarithmic, fits: true, ..Axis::default() }
+    Axis { name, logarithmic, fits: true, ..Axis::default() }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::Units;
     use crate::study::runs::ended::RunStatus::{Converged, NotConverged};
     use crate::study::table::rows::Column;
     use serde_json::{Value, json};
@@ -105,6 +106,8 @@ mod tests {
         let [by_space] = &drawn(Some("c.space"))[..] else { panic!("one case") };
         assert_eq!(by_space.title, "bars: contact.seam.pressure_max against body.a.young");
         assert!(by_space.x.logarithmic && !by_space.y.logarithmic, "a pressure below zero has no logarithm");
+        let named = Table { units: Units::new(Some("mm"), Some("N"), false), ..table() };
+        assert_eq!(asked_diagrams(&named, &names(None))[0].y.name, "contact.seam.pressure_max [MPa]");
         let lines: Vec<(&str, Vec<[f64; 2]>)> = by_space
             .lines
             .iter()

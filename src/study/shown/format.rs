@@ -29,7 +29,7 @@ pub fn json(table: &Table, lines: &[Line]) -> String {
 /// The table for people: repeats in one row, main columns that are not empty, results to four digits, reasons at the end and
 /// not of good runs.
 pub struct Readable {
-    /// Names of the columns.
+    /// Names of the columns, with units.
     pub header: Vec<String>,
     /// One row for all repeats of a run.
     pub rows: Vec<Vec<String>>,
@@ -50,7 +50,7 @@ impl Readable {
         let is_empty = |column: usize| (0..table.rows.len()).all(|row| cell(row, column).is_empty());
         let shown: Vec<usize> = main.filter(|&column| !is_empty(column)).collect();
         Self {
-            header: shown.iter().map(|&column| table.columns[column].name.clone()).collect(),
+            header: shown.iter().map(|&column| table.units.of_place(&table.columns[column].name)).collect(),
             rows: (0..table.rows.len()).map(|row| shown.iter().map(|&column| cell(row, column)).collect()).collect(),
         }
     }
@@ -156,6 +156,7 @@ fn escape(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::Units;
     use crate::study::runs::ended::RunStatus;
     use serde_json::json;
 
@@ -185,6 +186,7 @@ mod tests {
             statuses: vec![RunStatus::Converged, RunStatus::Failed],
             machines: vec!["Great CPU, 2 cores, 24 GiB".into()],
             blas: vec!["OpenBLAS".into()],
+            units: Units::default(),
         }
     }
 

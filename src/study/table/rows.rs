@@ -3,8 +3,10 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use serde::Deserialize;
 use serde_json::Value;
 
+use crate::output::Units;
 use crate::study::plan::Plan;
 use crate::study::plan::planned::PlannedRun;
 use crate::study::plan::summary_path::SummaryPath;
@@ -36,6 +38,8 @@ pub struct Table {
     pub machines: Vec<String>,
     /// The BLAS that they used, each once.
     pub blas: Vec<String>,
+    /// The units that all results are in; none where they differ.
+    pub units: Units,
 }
 
 /// A column of the table.
@@ -84,6 +88,7 @@ impl Table {
             good: results.iter().map(Ended::is_good).collect(),
             machines: once(results.iter().map(|ended| ended.machine.as_str())),
             blas: once(results.iter().filter_map(|ended| ended.summary["solver"]["blas"].as_str())),
+            units: common_units(results),
         }
     }
 
@@ -101,6 +106,13 @@ impl Table {
     pub fn converged(&self, rows: Range<usize>) -> impl Iterator<Item = usize> {
         rows.filter(|&row| self.statuses[row] == RunStatus::Converged)
     }
+}
+
+/// The units of all runs that have a result, if they are the same.
+fn common_units(results: &[Ended]) -> Units {
+    let mut all = results.iter().filter(|ended| !ended.summary.is_null()).map(|ended| &ended.summary["units"]);
+    let first = all.next().filter(|first| all.all(|other| other == *first));
+    first.and_then(|units| Units::deserialize(units).ok()).unwrap_or_default()
 }
 
 /// A value of a row, with the name of its column and what that is for a reader.

@@ -1,7 +1,7 @@
 //! The verdict on one contact.
 
 use super::beyond::doubts_beyond;
-use super::told::{Unknown, Verdict};
+use super::told::{Objection, Verdict};
 use super::zones::{is_proved, overlaps, unknown_of, zone_doubts};
 use crate::accuracy::share_of_nothing;
 use crate::case::Case;
@@ -25,7 +25,7 @@ pub fn verdict(summary: &Summary, contact: &ContactSummary, pair: &Pair, case: &
     }
     if is_rounding(summary, contact, case) {
         let words = "the bodies touch without being strained, and press by rounding alone";
-        return Verdict { unknown: Some(Unknown { cause: words, words: words.into(), remedy: None }), ..Verdict::default() };
+        return Verdict { unknown: Some(Objection { cause: words, words: words.into(), remedy: None }), ..Verdict::default() };
     }
     let idle = idle_words(contact, case, summary.largest_force());
     let carries = idle.is_none();

@@ -18,14 +18,14 @@ use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ContactTrust};
 use contact::verdict;
 use std::collections::BTreeMap;
-use told::{TRUSTED, Verdict, in_order, unknown, unreliable};
+use told::{TRUSTED, Verdict, clauses, in_order};
 
 /// What is said of the pressures of a run.
 #[derive(Debug, Default)]
 pub struct Judgement {
-    /// Figures that speak against pressures, with what to do about them.
+    /// Figures that speak against pressures, before what to do about them: clauses.
     pub unreliable: Option<String>,
-    /// What nothing tells, a sentence each.
+    /// What nothing tells, a clause each.
     pub unknown: Vec<String>,
 }
 
@@ -44,7 +44,9 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
         }
     }
     let names = in_order(summary, case, &verdicts);
-    Judgement { unreliable: unreliable(&names, &verdicts), unknown: unknown(&names, &verdicts) }
+    let doubts = clauses(&names, &verdicts, |verdict| &verdict.doubts);
+    let unknown = clauses(&names, &verdicts, |verdict| verdict.unknown.as_slice());
+    Judgement { unreliable: (!doubts.is_empty()).then(|| doubts.join("; ")), unknown }
 }
 
 /// Leaves no contact trusted, of a run that is not resolved.

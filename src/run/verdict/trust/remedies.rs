@@ -5,28 +5,25 @@ use crate::contact::{Pair, Quadrature, SegmentRule};
 use crate::element::Order;
 use crate::run::verdict::limits::{P1_STIFF, Remedy};
 
-/// What mends a pressure whose bodies are too coarse for it.
-pub const FINER: &str = "refine the mesh where contact is";
-
 /// What mends it where the mesh makes itself.
-const LESS_ERROR: &str =
-    "let the mesh become finer where contact is: ask for a smaller error, of pressure too, or allow more unknowns";
+const LESS_ERROR: &str = "ask for a smaller error, of pressure too, or allow more unknowns";
 
 /// What keeps it from becoming better there, however fine the mesh is.
 const CUT: &str = "take quadrature = \"cut\"";
 
 impl Remedy {
     /// The words for a contact. `pair` is as it was solved: on a mesh that makes itself the segments are the program's own.
-    pub fn words(self, pair: &Pair, case: &Case) -> &'static str {
+    pub fn words(self, pair: &Pair, case: &Case) -> String {
+        let finer = format!("take mesh.refine = {}, or a mesh that is adapted, by accuracy = 1e-2", case.mesh.refine + 1);
         match self {
-            Self::Words(words) => words,
+            Self::Words(words) => words.into(),
             Self::MoreSegments if pair.segments != SegmentRule::Auto => {
-                "take more segments (\"auto\" takes as many as the mesh bears), or refine the mesh where contact is"
+                format!("take more segments (\"auto\" takes as many as the mesh bears), or {finer}")
             }
-            Self::Finer | Self::MoreSegments if case.accuracy.is_none() => FINER,
-            Self::Finer | Self::MoreSegments if pair.quadrature == Quadrature::Cut => LESS_ERROR,
-            Self::Finer | Self::MoreSegments => CUT,
-            Self::Stability => stability(pair, case),
+            Self::Finer | Self::MoreSegments if case.accuracy.is_none() => finer,
+            Self::Finer | Self::MoreSegments if pair.quadrature == Quadrature::Cut => LESS_ERROR.into(),
+            Self::Finer | Self::MoreSegments => CUT.into(),
+            Self::Stability => stability(pair, case).into(),
         }
     }
 }

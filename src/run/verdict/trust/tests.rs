@@ -2,13 +2,15 @@
 
 use super::beyond::*;
 use super::contact::*;
-use super::remedies::FINER;
 use super::samples::*;
 use super::zones::*;
 use super::*;
 use crate::output::summary::{self, BalanceSummary, ContactEstimate, EstimateSummary, SupportSummary, ZoneSummary};
 use crate::run::verdict::limits::ENERGY;
 use crate::run::verdict::no_result::balance_doubts;
+
+/// How the advice begins that asks for a finer mesh.
+const FINER: &str = "take mesh.refine = ";
 
 fn words_of(zones: Vec<ZoneSummary>, missing: f64) -> String {
     let contact = ContactSummary { zones, missing: Some(missing), ..ContactSummary::default() };
@@ -148,7 +150,7 @@ fn the_pressure_at_a_corner_is_left_open_if_the_force_is_right() {
     let corner = ZoneSummary { edges: Some(1.5), corner: Some(true), lambda: None, worst: None, ..zone() };
     let contact = ContactSummary { zones: vec![corner], ..ContactSummary::default() };
     assert!(zone_doubts(&contact, Some(true)).is_empty());
-    assert!(unknown_of(&contact, Some(true), FINER).is_some_and(|unknown| unknown.words.contains("singular")));
+    assert!(unknown_of(&contact, Some(true), FINER.into()).is_some_and(|unknown| unknown.words.contains("singular")));
     assert!(!zone_doubts(&contact, Some(false)).is_empty());
 }
 
@@ -156,7 +158,7 @@ fn the_pressure_at_a_corner_is_left_open_if_the_force_is_right() {
 fn what_nothing_estimates_is_told() {
     let told = |lambda| {
         let zones = vec![ZoneSummary { lambda, ..zone() }];
-        unknown_of(&ContactSummary { zones, ..ContactSummary::default() }, None, FINER)
+        unknown_of(&ContactSummary { zones, ..ContactSummary::default() }, None, FINER.into())
     };
     assert!(told(Some(0.01)).is_none());
     assert!(told(None).is_some_and(|unknown| unknown.words.contains("nothing estimates")));
@@ -215,6 +217,23 @@ fn what_is_beyond_the_model_spoils_the_force_too() {
     assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains("have in common"), "{found:?}");
     let found = seam(&|seam| seam.zones[0].lambda = Some(0.2));
     assert!(found.0 == Some(false) && found.1 == Some(true) && found.2.contains("whose force is to be trusted"), "{found:?}");
+}
+
+#[test]
+fn what_helps_stands_beside_its_cause() {
+    let rough = |summary: &mut Summary| {
+        let contact = summary.contact.get_mut("seam").expect("it is there");
+        (contact.missing, contact.inf_sup, contact.zones[0].lambda) = (Some(0.5), Some(0.01), Some(0.2));
+    };
+    let (.., words) = judged(true, rough, &["contact.seam.segments=30", "mesh.refine=2"]);
+    let clauses = summary::clauses(&words);
+    let is = |clause: &str, parts: [&str; 3]| parts.iter().all(|part| clause.contains(part));
+    assert_eq!(clauses.len(), 2, "{clauses:?}");
+    assert!(is(clauses[0], ["contact seam (inf-sup", "overlap", "trusted: take fewer segments"]), "{clauses:?}");
+    assert!(
+        is(clauses[1], ["contact seam (estimated error of λ 0.20", ": take mesh.refine = 3", "accuracy = 1e-2"]),
+        "{clauses:?}"
+    );
 }
 
 /// With an accuracy the mesh and its segments are the program's own.
@@ -320,12 +339,13 @@ fn of_many_contacts_causes_are_counted_and_the_worst_are_named() {
     let (summary, judgement) = scene(40, |k| 1.0 + k as f64, |k| if k < 14 { 1.0 } else { 8.0 }, &[]);
     let words = judgement.unreliable.expect("words");
     assert!(
-        words.starts_with("14 of 40 contacts (14 because contact is narrower than four edges); the worst: contact c13 ("),
+        words
+            .starts_with("14 of 40 contacts: contact is narrower than four edges, the worst contact c13 (contact 1.0 edges wide"),
         "{words}"
     );
-    assert_eq!(words.matches("contact c").count(), summary::WORST, "{words}");
+    assert_eq!(words.matches("contact c").count(), 1, "{words}");
     assert!(
-        words.ends_with(FINER)
+        words.contains(&format!(": {FINER}"))
             && summary.contact["c13"].judged.trust == Some(false)
             && summary.contact["c39"].judged.trust == Some(true)
     );

@@ -1,6 +1,6 @@
 //! Whether the zones of a contact are wide enough and fine enough for their pressure.
 
-use super::told::Unknown;
+use super::told::Objection;
 use crate::output::summary::{ContactSummary, ZoneSummary};
 use crate::run::verdict::limits::{
     ALL_OVER, Doubt, EDGES, LEAST_FORCE_SHARE, MIDDLE, NEXT_TO_NOTHING, OVERLAP, OVERLAP_ALONE, PEAK, PEAK_AT_END, PROVES,
@@ -40,17 +40,17 @@ fn doubts_of(zone: &ZoneSummary, contact: &ContactSummary) -> Vec<Doubt> {
 }
 
 /// What neither speaks for a pressure nor against it.
-pub fn unknown_of(contact: &ContactSummary, trust_force: Option<bool>, remedy: &'static str) -> Option<Unknown> {
+pub fn unknown_of(contact: &ContactSummary, trust_force: Option<bool>, remedy: String) -> Option<Objection> {
     if let Some(zone) = counting(contact).find(|zone| is_concentrated(zone, trust_force)) {
         let edges = zone.edges.unwrap_or(f64::NAN);
         let words = format!(
             "the corner of a body presses on {edges:.1} edges: its force is to be trusted, its pressure is singular there"
         );
-        return Some(Unknown { cause: "the corner of a body presses, the force is to be trusted", words, remedy: None });
+        return Some(Objection { cause: "the corner of a body presses, the force is to be trusted", words, remedy: None });
     }
     let cause = "nothing estimates the error of its pressure";
     let is_untold = |zone: &ZoneSummary| zone.lambda.is_none() && !(is_proved(zone.worst) && is_divided(zone));
-    counting(contact).any(is_untold).then(|| Unknown { cause, words: cause.into(), remedy: Some(remedy) })
+    counting(contact).any(is_untold).then(|| Objection { cause, words: cause.into(), remedy: Some(remedy) })
 }
 
 /// Whether bodies overlap where no segment presses by what a force that counts would part.
