@@ -112,7 +112,7 @@ mod tests {
     #[test]
     fn the_errors_of_a_pressure_are_explained_beside_its_figure() {
         let told = |is_first: bool, multiplier: &str, singular: bool, estimate: ContactEstimate| {
-            let zones = vec![ZoneSummary { singular: Some(singular), ..ZoneSummary::default() }];
+            let zones = vec![ZoneSummary { singular: Some(singular), singular_at_end: Some(singular), ..ZoneSummary::default() }];
             let multiplier = Some(multiplier.to_owned());
             let contact = ContactSummary { pressure_max: Some(231.6), multiplier, zones, ..ContactSummary::default() };
             let mut summary = Summary { contact: [("seam".to_owned(), contact)].into(), ..Summary::default() };

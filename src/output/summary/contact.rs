@@ -98,7 +98,7 @@ impl ContactSummary {
 
     /// Whether it does so towards an end of the contact boundary.
     pub fn is_singular_at_end(&self) -> bool {
-        self.singular_zones().any(|zone| zone.singular_at.is_none())
+        self.singular_zones().any(|zone| zone.singular_at_end == Some(true))
     }
 
     /// The points at which materials meet where it does so.
@@ -106,12 +106,12 @@ impl ContactSummary {
         self.singular_zones().filter_map(|zone| zone.singular_at.map(Into::into)).collect()
     }
 
-    /// Where it does so, in words: towards an end, or at a point at which materials meet.
+    /// Where it does so, in words: towards an end, at a point at which materials meet, or both.
     pub fn singular_words(&self) -> Option<String> {
-        self.singular_zones().next().map(|zone| match zone.singular_at {
-            Some(place) => format!("at {}, where an edge between two materials ends", Coordinates(place.into())),
-            None => "towards an end".into(),
-        })
+        let end = self.is_singular_at_end().then(|| "towards an end".to_owned());
+        let joint = |place: &Point| format!("at {}, where an edge between two materials ends", Coordinates(*place));
+        let words: Vec<String> = end.into_iter().chain(self.singular_places().first().map(joint)).collect();
+        (!words.is_empty()).then(|| words.join(" and "))
     }
 
     fn singular_zones(&self) -> impl Iterator<Item = &ZoneSummary> {
@@ -153,6 +153,9 @@ pub struct ZoneSummary {
     pub peak_at_end: Option<bool>,
     /// Whether λ grows without bound towards an end of the contact boundary, or where materials meet, as far as can be seen.
     pub singular: Option<bool>,
+    /// Whether it does so towards an end.
+    #[serde(default)]
+    pub singular_at_end: Option<bool>,
     /// Where materials meet and λ grows without bound.
     #[serde(default, deserialize_with = "numbers")]
     pub singular_at: Option<[f64; 2]>,

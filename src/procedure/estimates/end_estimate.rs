@@ -1,6 +1,6 @@
 //! How far the ends of contact may be off: by their way from mesh to mesh, and within the segments beside them.
 
-use crate::contact::Zone;
+use crate::contact::{MultiplierSpace, Zone, true_end};
 use crate::discretisation::ContactPressure;
 use crate::geometry::Point;
 
@@ -56,7 +56,7 @@ pub(crate) fn ends_within_segments(pressure: &ContactPressure, before: &ContactP
         let presses_to_its_end = pressure.active[contact.multipliers.on_segment(segment, 0.0).0[end]];
         if zone.is_at_end[end] && presses_to_its_end {
             let is_free = contact.pair.has_free_ends() && !is_of_a_body[end];
-            return if is_free { (WITHIN_A_SEGMENT[1] * length, false) } else { (0.0, true) };
+            return if is_free { (WITHIN_A_SEGMENT[1] * length, false) } else { (before_the_body_ends(pressure, end), true) };
         }
         let earlier = zones_before.get(z).filter(|_| zones_before.len() == zones.len());
         match (pressure.faded_end(zone, end), earlier.and_then(|zone| before.faded_end(zone, end))) {
@@ -73,4 +73,44 @@ pub(crate) fn ends_within_segments(pressure: &ContactPressure, before: &ContactP
     all.fold((0.0, zones.len() == zones_before.len()), |(most, is_all), ((off, tells), width)| {
         (most.max(off / width), is_all && tells)
     })
+}
+
+/// How far before the end of a body that seems to press to its end contact may end: of steps (P0), the last of which is one mean for
+/// all of its segment, as far as a root through the last two means tells. Other spaces have a multiplier at the end that opens.
+fn before_the_body_ends(pressure: &ContactPressure, end: usize) -> f64 {
+    let ContactPressure { contact, values, active } = pressure;
+    if contact.multipliers.space != MultiplierSpace::P0 {
+        return 0.0;
+    }
+    let last = contact.boundary.arcs()[[0, contact.boundary.segments()][end]];
+    let found = true_end(&contact.boundary, &contact.multipliers, values, active, end);
+    found.map_or(0.0, |arc| if end == 0 { arc - last } else { last - arc }).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::Known;
+    use crate::discretisation::samples::{blocks, contact, pair};
+
+    /// λ = √(r - d) on ten segments of the line of two blocks, with the distance r from one of its ends: contact ends at d. Steps press
+    /// to the end as long as their mean presses.
+    #[test]
+    fn steps_that_press_at_the_end_of_a_body_tell_where_contact_ends_before_it() {
+        let contact = contact(&blocks(pair(MultiplierSpace::P0, 10), |_| Point::zeros(), Vec::new()), Known::default());
+        let arcs = contact.boundary.arcs().to_vec();
+        let error = |end: usize, before: f64| {
+            let primitive = |r: f64| 2.0 / 3.0 * (r - before).max(0.0).powf(1.5);
+            let away = |arc: f64| if end == 0 { arc } else { arcs[10] - arc };
+            let values: Vec<f64> =
+                arcs.windows(2).map(|ends| (primitive(away(ends[1])) - primitive(away(ends[0]))).abs()).collect();
+            let pressure = ContactPressure { contact: &contact, values: &values, active: &[true; 10] };
+            ends_within_segments(&pressure, &pressure)
+        };
+        for end in [0, 1] {
+            let (off, is_all) = error(end, 0.06);
+            assert!(is_all && (0.02..0.06).contains(&off), "{off} for 0.03");
+            assert!(error(end, 0.0).0 < 1e-12 && error(end, -0.5).0 == 0.0, "it presses to the end");
+        }
+    }
 }

@@ -77,7 +77,8 @@ impl<'a> Zones<'a> {
             let grows = (0..2).any(|end| pressure.grows_towards(zone, end, before(end)));
             let goes_on = goes_on.get(k).is_none_or(|goes_on| *goes_on);
             let joint = pressure.grows_at_joint(zone).filter(|_| goes_on).map(|t| contact.boundary.point(t).into());
-            let singular = is_singular(grows, corner_error) || joint.is_some();
+            let at_end = is_singular(grows, corner_error);
+            let singular = at_end || joint.is_some();
             let edges = contact.edges_on(zone);
             // All signs of a narrow zone may be small beside its error, unless they are very small.
             let wide = edges >= EDGES.value && contact.segments_on(zone) >= LEAST_SEGMENTS;
@@ -96,6 +97,7 @@ impl<'a> Zones<'a> {
                 peak: peak_error(found.peak.filter(tells), singular).map(|error| error.max(pressure.variation_at_joints(zone))),
                 peak_at_end: Some(pressure.peaks_at_end(zone)),
                 singular: Some(singular),
+                singular_at_end: Some(at_end),
                 singular_at: joint,
                 corner: Some((0..2).any(|end| pressure.ends_at_a_corner(&problem.scene.mesh, zone, end))),
             }

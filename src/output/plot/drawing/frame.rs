@@ -21,6 +21,12 @@ impl Frame {
         Self([left + margin, top + margin, right - margin, bottom - margin])
     }
 
+    /// The smallest box around both.
+    pub fn with(&self, other: &Self) -> Self {
+        let ([left, top, right, bottom], other) = (self.0, other.0);
+        Self([left.min(other[0]), top.min(other[1]), right.max(other[2]), bottom.max(other[3])])
+    }
+
     /// Its width and its height.
     pub fn extent(&self) -> [f64; 2] {
         let [left, top, right, bottom] = self.0;

@@ -79,8 +79,10 @@ impl PlacedNames {
     pub fn put(&mut self, canvas: &mut Canvas, name: &Name) -> bool {
         let size = name.letters.size;
         let extent = [text_width(name.text, size) + 2.0 * MARGIN, size + 2.0 * MARGIN];
-        let frames = places(name, extent).into_iter().map(|middle| Frame::around(middle, extent)).enumerate();
-        let costs = frames.map(|(number, frame)| (self.cost(&frame) + number as f64, frame));
+        let frames: Vec<Frame> = places(name, extent).into_iter().map(|middle| Frame::around(middle, extent)).collect();
+        let Some(reach) = frames.iter().copied().reduce(|all, frame| all.with(&frame)) else { return false };
+        let near = self.near(&reach);
+        let costs = frames.into_iter().enumerate().map(|(number, frame)| (near.cost(&frame) + number as f64, frame));
         let Some((_, frame)) = costs.min_by(|a, b| a.0.total_cmp(&b.0)) else { return false };
         let hidden: f64 = self.names.iter().map(|other| frame.shared(other)).sum();
         if hidden > MOST_HIDDEN * extent[0] * extent[1] && !matches!(name.wish, Wish::Beside) {
@@ -98,6 +100,13 @@ impl PlacedNames {
         };
         canvas.text(Letters { anchor, has_rim: true, ..name.letters }, [x, y], name.text);
         true
+    }
+
+    /// What may lie in a place within reach: of thousands of names and points a few, for some fifty places of each name.
+    fn near(&self, reach: &Frame) -> Self {
+        let within = |all: &[Frame]| all.iter().filter(|frame| frame.shared(reach) > 0.0).copied().collect();
+        let lines = self.lines.iter().filter(|point| reach.holds(**point)).copied().collect();
+        Self { room: self.room, marks: within(&self.marks), names: within(&self.names), lines }
     }
 
     /// How bad a place is.

@@ -39,6 +39,7 @@ pub fn zone() -> ZoneSummary {
         peak: Some(0.02),
         peak_at_end: Some(false),
         singular: Some(false),
+        singular_at_end: Some(false),
         singular_at: None,
         corner: Some(false),
     }

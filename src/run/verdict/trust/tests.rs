@@ -289,8 +289,9 @@ fn scene(count: usize, force: impl Fn(usize) -> f64, edges: impl Fn(usize) -> f6
 /// The verdict on a pressure that is to be trusted, but grows towards an end on each mesh.
 #[test]
 fn a_largest_pressure_that_means_nothing_is_told_in_the_verdict() {
-    let verdict = |singular, singular_at| {
-        let zones = vec![ZoneSummary { singular: Some(singular), singular_at, ..zone() }];
+    let verdict = |at_end: bool, singular_at: Option<[f64; 2]>| {
+        let singular = Some(at_end || singular_at.is_some());
+        let zones = vec![ZoneSummary { singular, singular_at_end: Some(at_end), singular_at, ..zone() }];
         let (force, nothing) = (Some(5.0), Some(0.0));
         let contact =
             ContactSummary { zones, force, unresolved_force: nothing, missing_force: nothing, ..ContactSummary::default() };
@@ -302,8 +303,9 @@ fn a_largest_pressure_that_means_nothing_is_told_in_the_verdict() {
     assert_eq!(verdict(false, None), (Some(true), "trusted".into()));
     let words = "trusted, but for the largest value: λ grows without bound";
     assert_eq!(verdict(true, None), (Some(true), format!("{words} towards an end")));
-    let joint = format!("{words} at (1, 0.5), where an edge between two materials ends");
-    assert_eq!(verdict(true, Some([1.0, 0.5])), (Some(true), joint));
+    let joint = "at (1, 0.5), where an edge between two materials ends";
+    assert_eq!(verdict(false, Some([1.0, 0.5])), (Some(true), format!("{words} {joint}")));
+    assert_eq!(verdict(true, Some([1.0, 0.5])), (Some(true), format!("{words} towards an end and {joint}")));
 }
 
 #[test]
