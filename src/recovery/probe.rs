@@ -148,7 +148,7 @@ pub fn stress_forces(
         by_order!(problem.finest().numbering.level.order, add_stress_forces(problem, u, triangle, at, law, &mut forces))
     });
     agreed(session, added)?;
-    forces.sum(session)
+    Ok(forces.sum(session))
 }
 
 fn add_stress_forces<const N: usize>(

@@ -313,8 +313,8 @@ fn moved_forces(
         let (at, u) = (2 * (node - space.own.start), space.to_frame(node, set.mode(k, x)));
         (moved[at], moved[at + 1]) = (u.x, u.y);
     }
-    let moved = Field::displacement(problem, &moved, session)?;
-    let (mut forces, springs) = (internal_forces(problem, &moved, session)?.1, SpringForces::new(problem, &moved, session)?);
+    let moved = Field::displacement(problem, &moved, session);
+    let (mut forces, springs) = (internal_forces(problem, &moved, session)?.1, SpringForces::new(problem, &moved, session));
     forces.add(-1.0, &springs.nodes);
     Ok(forces)
 }
