@@ -18,7 +18,6 @@ use crate::discretisation::{
     rigid_motions,
 };
 use crate::geometry::Point;
-use crate::mesh::lattice;
 use crate::multigrid::Sparse;
 use crate::petsc::Session;
 use nalgebra::DMatrix;
@@ -321,18 +320,12 @@ fn moved_forces(
 
 /// Nodes of this rank in a body, and where they are.
 fn nodes_of_body(problem: &Discretisation, body: &str, rank: usize) -> BTreeMap<usize, Point> {
-    let (scene, space) = (&problem.scene, problem.finest());
-    let level = space.numbering.level;
+    let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let mut nodes = BTreeMap::new();
-    let is_own = |triangle: &&u32| scene.mesh.bodies[scene.mesh.triangles[**triangle as usize].body as usize] == body;
-    for &triangle in scene.partition.triangles_of(rank).iter().filter(is_own) {
-        let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
-        for (i, j) in lattice::nodes(level.intervals) {
-            let node = numbers.node(i, j);
-            if space.own.contains(&node) {
-                nodes.entry(node).or_insert_with(|| scene.mesh.node_position(triangle as usize, level, (i, j)));
-            }
-        }
+    let is_own = |triangle: &usize| mesh.bodies[mesh.triangles[*triangle].body as usize] == body;
+    let own = problem.scene.partition.triangles_of(rank).iter().map(|&triangle| triangle as usize).filter(is_own);
+    for (triangle, at, node) in space.numbering.nodes_of(mesh, own).filter(|(.., node)| space.own.contains(node)) {
+        nodes.entry(node).or_insert_with(|| mesh.node_position(triangle, space.numbering.level, at));
     }
     nodes
 }
