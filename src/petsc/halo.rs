@@ -99,13 +99,11 @@ fn exchange<T: Datum>(
     multiple_scope(from.len() + to.len(), |scope, requests| {
         let mut rest = received;
         for (rank, range) in from {
-            let (part, next) = rest.split_at_mut(range.len());
+            let part = rest.split_off_mut(..range.len()).expect("room for all values");
             requests.add(world.process_at_rank(*rank).immediate_receive_into(scope, part));
-            rest = next;
         }
-        let send = |(rank, range): &(i32, Range<usize>)| world.process_at_rank(*rank).immediate_send(scope, &sent[range.clone()]);
-        for of_rank in to {
-            requests.add(send(of_rank));
+        for (rank, range) in to {
+            requests.add(world.process_at_rank(*rank).immediate_send(scope, &sent[range.clone()]));
         }
         meanwhile();
         requests.wait_all(&mut Vec::new());

@@ -309,8 +309,7 @@ fn moved_forces(
     }
     let mut moved = vec![0.0; space.local_unknowns()];
     for (&node, &x) in places.iter().filter(|(node, _)| space.own.contains(node)) {
-        let (at, u) = (2 * (node - space.own.start), space.to_frame(node, set.mode(k, x)));
-        (moved[at], moved[at + 1]) = (u.x, u.y);
+        moved[2 * (node - space.own.start)..][..2].copy_from_slice(space.to_frame(node, set.mode(k, x)).as_slice());
     }
     let moved = Field::displacement(problem, &moved, session);
     let (mut forces, springs) = (internal_forces(problem, &moved, session)?.1, SpringForces::new(problem, &moved, session));
