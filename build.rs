@@ -13,11 +13,11 @@ const FUNCTIONS: &[&str] = &[
     "PetscOptionsLeftGet|PetscOptionsLeftRestore",
     // stage
     "PetscLogStage(Register|GetId|Push|Pop)",
-    // vector, gather, index_set
+    // vector, index_set
     "Vec(Create|SetSizes|SetType|Duplicate|Destroy|GetArray|RestoreArray|GetArrayRead|RestoreArrayRead)",
     "Vec(GetLocalSize|GetSize|GetOwnershipRange|Set|Norm|AXPY|Copy)",
-    "VecCreate(Seq|SeqWithArray|MPIWithArray)|Vec(Place|Reset)Array|VecScatter(Create|Begin|End|Destroy)",
-    "IS(CreateGeneral|Destroy|GetLocalSize|GetIndices|RestoreIndices)",
+    "VecCreate(SeqWithArray|MPIWithArray)|Vec(Place|Reset)Array",
+    "IS(Destroy|GetLocalSize|GetIndices|RestoreIndices)",
     // matrix, nest, shell
     "Mat(Create|SetSizes|SetType|Destroy|SetOption|AssemblyBegin|AssemblyEnd|ZeroEntries|Norm|GetInfo|Convert)",
     "Mat(SetValues|SetValuesBlocked|Mult|MultAdd|Residual|CreateVecs)",

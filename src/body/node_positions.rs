@@ -11,7 +11,7 @@ pub fn positions<const N: usize>(mesh: &MacroMesh, triangle: usize, level: Level
 /// Positions of the nodes of a macro triangle that is a single triangle: its corners, then its midsides.
 pub fn positions_of_one<const N: usize>(mesh: &MacroMesh, triangle: usize, level: Level) -> [Point; N] {
     if mesh.is_curved(triangle) {
-        return positions(mesh, triangle, level, &lattice::Triangle::at(0, 0, level.order, false).nodes());
+        return positions(mesh, triangle, level, &lattice::Triangle::at(0, 0, level.order).nodes());
     }
     with_midsides(mesh.corners(triangle))
 }

@@ -1,24 +1,21 @@
 //! Displacements at the nodes that a rank can see.
 
-use crate::discretisation::error::SystemError;
 use crate::discretisation::field::Field;
 use crate::discretisation::levels::Discretisation;
 use crate::geometry::Point;
-use crate::petsc::{Session, Vector};
+use crate::petsc::Session;
 
 impl Field<2> {
     /// Displacements in global axes, from this rank's unknowns in the nodes' frames. **Collective**
-    pub fn displacement(problem: &Discretisation, unknowns: &[f64], session: &Session) -> Result<Self, SystemError> {
+    pub fn displacement(problem: &Discretisation, unknowns: &[f64], session: &Session) -> Self {
         let mut field = Self::zeros(&problem.scene, problem.finest(), session);
         let space = problem.finest();
         for (at, (own, u)) in field.own.iter_mut().zip(unknowns.chunks_exact(2)).enumerate() {
             let u = space.to_global(space.own.start + at, Point::new(u[0], u[1]));
             *own = [u.x, u.y];
         }
-        let mut values = Vector::new(session, unknowns.len())?;
-        values.values_mut().copy_from_slice(field.own.as_flattened());
-        field.fetch(&values)?;
-        Ok(field)
+        field.fetch(session);
+        field
     }
 
     /// Displacement of a node.

@@ -30,7 +30,7 @@ impl Discretisation {
         let (mesh, numbering) = (&self.scene.mesh, &self.finest().numbering);
         let (level, numbers) = (numbering.level, numbering.triangle(mesh, triangle));
         if level.is_one_triangle() {
-            let small = Triangle::at(0, 0, level.order, false);
+            let small = Triangle::at(0, 0, level.order);
             return show(&Element { small, nodes: numbers.of_one(), x: positions_of_one(mesh, triangle, level) });
         }
         let all = NodePositions::new(mesh, triangle, level);

@@ -1,10 +1,9 @@
 //! Values at the nodes that a rank can see: those of the macro triangles it owns.
 
-use crate::discretisation::error::SystemError;
 use crate::discretisation::scene::Scene;
 use crate::discretisation::space::Space;
 use crate::mesh::{each_once, lattice};
-use crate::petsc::{Gather, Index, Session, Vector};
+use crate::petsc::{Halo, Session};
 use std::collections::HashMap;
 
 /// `K` numbers at every node of the macro triangles that this rank owns.
@@ -63,29 +62,28 @@ impl<const K: usize> Field<K> {
     }
 
     /// Adds up what all ranks have gathered at each node, and shares the sums. **Collective**
-    pub fn sum(mut self, session: &Session) -> Result<Self, SystemError> {
-        let others = self.others.iter().map(|(&node, &values)| (node, values)).collect();
-        session.add_to_owners(&(self.first..self.first + self.own.len()), &mut self.own, others);
-        let mut sums = Vector::new(session, K * self.own.len())?;
-        sums.values_mut().copy_from_slice(self.own.as_flattened());
-        self.fetch(&sums)?;
-        Ok(self)
+    pub fn sum(mut self, session: &Session) -> Self {
+        let (far, halo) = self.halo(session);
+        let gathered: Vec<[f64; K]> = far.iter().map(|node| self.others[node]).collect();
+        halo.give(&gathered, &mut self.own);
+        self.fetch(session);
+        self
     }
 
-    /// Takes the values of other ranks' nodes from their owners.
-    pub(super) fn fetch(&mut self, values: &Vector) -> Result<(), SystemError> {
-        let nodes: Vec<usize> = self.others.keys().copied().collect();
-        let wanted: Vec<Index> = nodes.iter().flat_map(|&node| indices::<K>(node)).collect();
-        let found = Gather::new(values, &wanted)?.fetch(values)?;
-        for (node, values) in nodes.iter().zip(found.chunks_exact(K)) {
-            self.others.insert(*node, std::array::from_fn(|k| values[k]));
-        }
-        Ok(())
+    /// Takes the values of other ranks' nodes from their owners. **Collective**
+    pub(super) fn fetch(&mut self, session: &Session) {
+        let (far, halo) = self.halo(session);
+        let mut values = vec![[0.0; K]; far.len()];
+        halo.fetch(&self.own, &mut values, || ());
+        self.others.extend(far.into_iter().zip(values));
     }
-}
 
-fn indices<const K: usize>(node: usize) -> [Index; K] {
-    std::array::from_fn(|k| (K * node + k) as Index)
+    /// The nodes of other ranks, and the way to their owners. **Collective**
+    fn halo(&self, session: &Session) -> (Vec<usize>, Halo) {
+        let far = each_once(self.others.keys().copied());
+        let halo = Halo::new(session, &(self.first..self.first + self.own.len()), &far);
+        (far, halo)
+    }
 }
 
 /// Nodes of this rank's macro triangles that other ranks own.

@@ -64,7 +64,7 @@ impl HeldBodies {
         session.agree(added.map_err(SystemError::from)).map_err(SystemError::Case)?;
         let nodes = places.into_iter().map(|(node, (hold, x))| (node, hold, x)).collect();
         let (all, inverses, asked, off) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let mut bodies = Self { about, nodes, moments: moments.sum(session)?, off, all, inverses, asked };
+        let mut bodies = Self { about, nodes, moments: moments.sum(session), off, all, inverses, asked };
         bodies.find_middles(session);
         bodies.weigh(scene, session);
         Ok(bodies)

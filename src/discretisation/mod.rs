@@ -46,4 +46,4 @@ pub use motions::{
 };
 pub use scene::{Scene, spread};
 pub use solution::Solution;
-pub use space::{Components, Space};
+pub use space::Space;

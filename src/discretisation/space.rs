@@ -8,9 +8,6 @@ use crate::mesh::{Level, Numbering, Partition, lattice};
 use std::ops::Range;
 use std::rc::Rc;
 
-/// Two components at a node.
-pub type Components = [f64; 2];
-
 /// Numbers and constraints of one level. Component `k` of node `j` is unknown `2 j + k`, in the node's frame.
 pub struct Space {
     /// Numbers of the nodes.

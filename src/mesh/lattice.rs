@@ -125,9 +125,19 @@ pub struct Triangle {
 }
 
 impl Triangle {
-    /// The triangle whose first corner is `(i, j)`.
-    pub fn at(i: usize, j: usize, order: Order, down: bool) -> Self {
-        Self { i, j, step: order.degree(), down }
+    /// The triangle that points up and whose first corner is `(i, j)`.
+    pub fn at(i: usize, j: usize, order: Order) -> Self {
+        Self { i, j, step: order.degree(), down: false }
+    }
+
+    /// The triangle of the parallelogram at place `i` of row `j` that holds a point, at the fractions `(x, y)` of its sides, in a
+    /// lattice with `count` triangles on an edge; and the barycentric coordinates there.
+    pub fn holding((i, j): (usize, usize), (x, y): (f64, f64), count: usize, order: Order) -> (Self, [f64; 3]) {
+        let step = order.degree();
+        match x + y > 1.0 && i + j + 2 <= count {
+            true => (Self { i: step * (i + 1), j: step * (j + 1), step, down: true }, [x + y - 1.0, 1.0 - x, 1.0 - y]),
+            false => (Self { i: step * i, j: step * j, step, down: false }, [1.0 - x - y, x, y]),
+        }
     }
 
     /// The `N` nodes of the triangle: 3 for P1, 6 for P2.

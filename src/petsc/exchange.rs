@@ -18,6 +18,13 @@ impl Session {
         self.to_each(&sorted, &counts, &arriving, width)
     }
 
+    /// The rank that owns a number: each rank owns a range, `count` long on this one, and these follow each other. **Collective**
+    pub(super) fn owners(&self, count: usize) -> impl Fn(usize) -> usize + use<> {
+        let mut ends = self.gather_counts(count);
+        (1..ends.len()).for_each(|rank| ends[rank] += ends[rank - 1]);
+        move |number| ends.partition_point(|end| *end <= number)
+    }
+
     /// How many entries each rank has for this one, from how many this one has for each. **Collective**
     pub(super) fn counts_to_each(&self, counts: &[usize]) -> Vec<usize> {
         let mut arriving = vec![0; self.size()];

@@ -6,7 +6,7 @@ use mpi::request::multiple_scope;
 use mpi::traits::{Communicator, Destination, Source};
 use std::ops::Range;
 
-/// Nodes of other ranks that this one needs, and nodes of its own that others need. Vectors have two values for each node.
+/// Nodes of other ranks that this one needs, and nodes of its own that others need.
 pub struct Halo {
     session: Session,
     /// Ranks that own what this one needs, and how many nodes of each: in their order.
@@ -24,11 +24,9 @@ impl Halo {
         if size == 1 {
             return Self { session: session.clone(), from: Vec::new(), to: Vec::new(), sent: Vec::new() };
         }
-        let mut ends = session.gather_counts(own.len());
-        (1..size).for_each(|rank| ends[rank] += ends[rank - 1]);
-        let owner = |node: &usize| ends.partition_point(|end| end <= node);
+        let owner = session.owners(own.len());
         let from: Vec<(i32, usize)> =
-            far.chunk_by(|a, b| owner(a) == owner(b)).map(|part| (owner(&part[0]) as i32, part.len())).collect();
+            far.chunk_by(|a, b| owner(*a) == owner(*b)).map(|part| (owner(part[0]) as i32, part.len())).collect();
         let mut wanted = vec![0; size];
         from.iter().for_each(|&(rank, count)| wanted[rank as usize] = count);
         let asked = session.counts_to_each(&wanted);
@@ -41,7 +39,7 @@ impl Halo {
     }
 
     /// Brings the values of the far nodes, in their order, and does `meanwhile` what needs none of them. **Collective**
-    pub fn fetch<T: Datum>(&self, x: &[[T; 2]], far: &mut [[T; 2]], meanwhile: impl FnOnce()) {
+    pub fn fetch<T: Datum, const K: usize>(&self, x: &[[T; K]], far: &mut [[T; K]], meanwhile: impl FnOnce()) {
         self.bring(&self.sent(x), far, meanwhile);
     }
 
@@ -53,22 +51,24 @@ impl Halo {
     }
 
     /// The values that other ranks need.
-    fn sent<T: Datum>(&self, x: &[[T; 2]]) -> Vec<[T; 2]> {
+    fn sent<T: Datum, const K: usize>(&self, x: &[[T; K]]) -> Vec<[T; K]> {
         self.sent.iter().map(|&node| x[node as usize]).collect()
     }
 
-    fn bring<T: Datum>(&self, sent: &[[T; 2]], far: &mut [[T; 2]], meanwhile: impl FnOnce()) {
+    fn bring<T: Datum, const K: usize>(&self, sent: &[[T; K]], far: &mut [[T; K]], meanwhile: impl FnOnce()) {
         let from: Vec<(i32, Range<usize>)> = parts(&self.from).collect();
-        exchange(&self.session, (sent.as_flattened(), &twice(&self.to)), (far.as_flattened_mut(), &twice(&from)), meanwhile);
+        let (sent, far) = ((sent.as_flattened(), &*times(K, &self.to)), (far.as_flattened_mut(), &*times(K, &from)));
+        exchange(&self.session, sent, far, meanwhile);
     }
 
     /// Adds what this rank has for the far nodes to the values of their owners. **Collective**
-    pub fn give<T: Datum + std::ops::AddAssign>(&self, far: &[[T; 2]], y: &mut [[T; 2]]) {
-        let mut arrived = vec![[T::default(); 2]; self.sent.len()];
+    pub fn give<T: Datum + std::ops::AddAssign, const K: usize>(&self, far: &[[T; K]], y: &mut [[T; K]]) {
+        let mut arrived = vec![[T::default(); K]; self.sent.len()];
         let from: Vec<(i32, Range<usize>)> = parts(&self.from).collect();
-        exchange(&self.session, (far.as_flattened(), &twice(&from)), (arrived.as_flattened_mut(), &twice(&self.to)), || ());
+        let (far, here) = ((far.as_flattened(), &*times(K, &from)), (arrived.as_flattened_mut(), &*times(K, &self.to)));
+        exchange(&self.session, far, here, || ());
         for (&node, value) in self.sent.iter().zip(arrived) {
-            (0..2).for_each(|k| y[node as usize][k] += value[k]);
+            (0..K).for_each(|k| y[node as usize][k] += value[k]);
         }
     }
 }
@@ -82,9 +82,9 @@ fn parts(counts: &[(i32, usize)]) -> impl Iterator<Item = (i32, Range<usize>)> {
     })
 }
 
-/// Parts of a list of nodes as parts of the list of their values, two for each node.
-fn twice(parts: &[(i32, Range<usize>)]) -> Vec<(i32, Range<usize>)> {
-    parts.iter().map(|(rank, range)| (*rank, 2 * range.start..2 * range.end)).collect()
+/// Parts of a list of nodes as parts of the list of their values, so many for each node.
+fn times(count: usize, parts: &[(i32, Range<usize>)]) -> Vec<(i32, Range<usize>)> {
+    parts.iter().map(|(rank, range)| (*rank, count * range.start..count * range.end)).collect()
 }
 
 /// Sends parts of a list and receives those of another, which follow each other in it; does `meanwhile` while they are under way.
@@ -99,13 +99,11 @@ fn exchange<T: Datum>(
     multiple_scope(from.len() + to.len(), |scope, requests| {
         let mut rest = received;
         for (rank, range) in from {
-            let (part, next) = rest.split_at_mut(range.len());
+            let part = rest.split_off_mut(..range.len()).expect("room for all values");
             requests.add(world.process_at_rank(*rank).immediate_receive_into(scope, part));
-            rest = next;
         }
-        let send = |(rank, range): &(i32, Range<usize>)| world.process_at_rank(*rank).immediate_send(scope, &sent[range.clone()]);
-        for of_rank in to {
-            requests.add(send(of_rank));
+        for (rank, range) in to {
+            requests.add(world.process_at_rank(*rank).immediate_send(scope, &sent[range.clone()]));
         }
         meanwhile();
         requests.wait_all(&mut Vec::new());

@@ -177,9 +177,7 @@ impl Matrix {
     pub fn create_vectors(&self) -> Result<(Vector, Vector)> {
         let (mut right, mut left) = (ptr::null_mut(), ptr::null_mut());
         petsc!(MatCreateVecs(self.raw, &mut right, &mut left))?;
-        let right = Vector::from_raw(&self.session, right);
-        let left = Vector::from_raw(&self.session, left);
-        Ok((right?, left?))
+        Ok((Vector::from_raw(&self.session, right), Vector::from_raw(&self.session, left)))
     }
 
     /// A sparse copy, as direct solvers want it. **Collective**

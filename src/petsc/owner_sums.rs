@@ -15,19 +15,12 @@ impl Session {
     /// | `others` | blocks of any rank, in any order |
     ///
     /// **Collective**
-    pub fn add_to_owners<const K: usize>(&self, own: &Range<usize>, sums: &mut [[f64; K]], mut others: Vec<(usize, [f64; K])>) {
-        others.sort_by_key(|(block, _)| *block);
-        let mut end = 0;
-        let mut of_rank = |count: usize| {
-            let begin = others.partition_point(|(block, _)| *block < end);
-            end += count;
-            others.partition_point(|(block, _)| *block < end) - begin
-        };
-        let counts: Vec<usize> = self.gather_counts(own.len()).into_iter().map(&mut of_rank).collect();
-        let blocks: Vec<u64> = others.iter().map(|(block, _)| *block as u64).collect();
-        let values: Vec<f64> = others.iter().flat_map(|(_, values)| *values).collect();
-        let arriving = self.counts_to_each(&counts);
-        let (blocks, values) = (self.to_each(&blocks, &counts, &arriving, 1), self.to_each(&values, &counts, &arriving, K));
+    pub fn add_to_owners<const K: usize>(&self, own: &Range<usize>, sums: &mut [[f64; K]], others: Vec<(usize, [f64; K])>) {
+        let owner = self.owners(own.len());
+        let (blocks, values): (Vec<u64>, Vec<[f64; K]>) =
+            others.into_iter().map(|(block, values)| (block as u64, values)).unzip();
+        let ranks: Vec<usize> = blocks.iter().map(|block| owner(*block as usize)).collect();
+        let (blocks, values) = (self.send_to(&ranks, &blocks, 1), self.send_to(&ranks, values.as_flattened(), K));
         for (block, values) in blocks.iter().zip(values.chunks_exact(K)) {
             let sum = &mut sums[*block as usize - own.start];
             sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);

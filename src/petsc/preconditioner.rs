@@ -32,11 +32,6 @@ impl Preconditioner {
         words(kind)
     }
 
-    /// Whether something failed on this rank when it was prepared or applied last.
-    pub fn has_failed(&self) -> Result<bool> {
-        Ok(self.failed_by()? != ffi::PCFailedReason::PC_NOERROR)
-    }
-
     /// Whether its factorisation could not get the memory that it asked for.
     pub(super) fn is_out_of_memory(&self) -> Result<bool> {
         Ok(self.failed_by()? == ffi::PCFailedReason::PC_FACTOR_OUTMEMORY)

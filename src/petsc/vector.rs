@@ -24,23 +24,16 @@ impl Vector {
         Ok(vector)
     }
 
-    /// A vector of `count` entries that this rank alone has.
-    pub(super) fn alone(session: &Session, count: usize) -> Result<Self> {
-        let mut raw = ptr::null_mut();
-        petsc!(VecCreateSeq(mpi::ffi::RSMPI_COMM_SELF, length(count), &mut raw))?;
-        Self::from_raw(session, raw)
-    }
-
     /// Takes over one reference to a vector of PETSc's.
-    pub(super) fn from_raw(session: &Session, raw: ffi::Vec) -> Result<Self> {
-        Ok(Self { raw, session: session.clone() })
+    pub(super) fn from_raw(session: &Session, raw: ffi::Vec) -> Self {
+        Self { raw, session: session.clone() }
     }
 
     /// A new vector of the same layout. **Collective**
     pub fn duplicate(&self) -> Result<Self> {
         let mut raw = ptr::null_mut();
         petsc!(VecDuplicate(self.raw, &mut raw))?;
-        Self::from_raw(&self.session, raw)
+        Ok(Self::from_raw(&self.session, raw))
     }
 
     /// The entries of this rank, to read.

@@ -19,7 +19,7 @@ impl Window {
         } else {
             petsc!(VecCreateMPIWithArray(comm, 1, n, ffi::mezha_determine, ptr::null(), &mut raw))?;
         }
-        Ok(Self(Vector::from_raw(session, raw)?))
+        Ok(Self(Vector::from_raw(session, raw)))
     }
 
     /// Shows `values` as a vector that `with` may read. **Collective** as `with` is.

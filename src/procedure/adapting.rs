@@ -90,7 +90,7 @@ impl Procedure<'_> {
 
     /// Solves the next mesh of a sequence. **Collective**
     fn solve_next(&self, sequence: &MeshSequence) -> Result<Solved, SystemError> {
-        let predecessor = sequence.last().map(|(last, origins)| Predecessor::new(last, origins, self.session)).transpose()?;
+        let predecessor = sequence.last().map(|(last, origins)| Predecessor::new(last, origins, self.session));
         self.solve_on_mesh(sequence.scene.clone(), predecessor.as_ref())
     }
 

@@ -11,8 +11,9 @@ use crate::contact::{ContactBoundary, Known};
 use crate::discretisation::{
     BoundaryMotion, Contact, ContactPressure, Discretisation, Field, Scene, Solution, Space, SystemError, beside, spaces,
 };
-use crate::element::Order;
+use crate::element::{Order, shape};
 use crate::geometry::Point;
+use crate::mesh::lattice::Triangle;
 use crate::mesh::{EdgeNode, Level, MacroMesh, Numbering};
 use crate::petsc::Session;
 use crate::procedure::boundary::by_place;
@@ -61,7 +62,7 @@ impl CoarseSolution {
         needed: (Preconditioning, bool),
         session: &Session,
     ) -> Result<Self, SystemError> {
-        let displacement = Field::displacement(&problem, &solution.displacement, session)?;
+        let displacement = Field::displacement(&problem, &solution.displacement, session);
         Ok(Self {
             largest: largest_stresses(&problem, &displacement, session)?,
             displacement,
@@ -237,29 +238,13 @@ pub(super) fn coarse_values(
         }
     }
     let (x, y) = ((i - a * step) as f64 / step as f64, (j - b * step) as f64 / step as f64);
-    let down = x + y > 1.0;
-    let l = if down { [x + y - 1.0, 1.0 - x, 1.0 - y] } else { [1.0 - x - y, x, y] };
-    let half = order.degree();
-    let corner = if down { [(a + 1) * half, (b + 1) * half] } else { [a * half, b * half] };
-    let sign = if down { -1 } else { 1 };
-    let node = move |di: usize, dj: usize| {
-        (corner[0].wrapping_add_signed(sign * di as isize), corner[1].wrapping_add_signed(sign * dj as isize))
+    let (small, l) = Triangle::holding((a, b), (x, y), count, order);
+    let l = mesh.place_in_parent(triangle, level.intervals / 2, small.nodes(), l);
+    let weights = match order {
+        Order::P1 => [l[0], l[1], l[2], 0.0, 0.0, 0.0],
+        Order::P2 => shape::<6>(l),
     };
-    let corners = [node(0, 0), node(half, 0), node(0, half)];
-    let l = mesh.place_in_parent(triangle, level.intervals / 2, corners, l);
-    let nothing = ((0, 0), 0.0);
-    let all = match order {
-        Order::P1 => [(node(0, 0), l[0]), (node(1, 0), l[1]), (node(0, 1), l[2]), nothing, nothing, nothing],
-        Order::P2 => [
-            (node(0, 0), l[0] * (2.0 * l[0] - 1.0)),
-            (node(2, 0), l[1] * (2.0 * l[1] - 1.0)),
-            (node(0, 2), l[2] * (2.0 * l[2] - 1.0)),
-            (node(1, 0), 4.0 * l[0] * l[1]),
-            (node(1, 1), 4.0 * l[1] * l[2]),
-            (node(0, 1), 4.0 * l[2] * l[0]),
-        ],
-    };
-    all.into_iter().filter(|(_, weight)| *weight != 0.0)
+    small.nodes::<6>().into_iter().zip(weights).filter(|(_, weight)| *weight != 0.0)
 }
 
 #[cfg(test)]

@@ -81,7 +81,7 @@ impl Procedure<'_> {
         if problem.contacts.len() == 1 || largest == 0.0 || own > SMALL * largest {
             return Ok(1.0);
         }
-        let u = Field::displacement(problem, &solution.displacement, self.session)?;
+        let u = Field::displacement(problem, &solution.displacement, self.session);
         let contact = &problem.contacts[at];
         let points = trace_points(problem, &solution.pressure(contact), &u, self.session)?;
         let complete = points.iter().filter(|point| point.is_complete());
@@ -101,7 +101,7 @@ impl Procedure<'_> {
         if !pressure.has_few_edges(least) {
             return Ok(false);
         }
-        let u = Field::displacement(problem, &solution.displacement, self.session)?;
+        let u = Field::displacement(problem, &solution.displacement, self.session);
         let points = trace_points(problem, &pressure, &u, self.session)?;
         Ok(pressure.is_too_narrow(&problem.scene.mesh, &points, least))
     }
@@ -115,7 +115,7 @@ impl Procedure<'_> {
     /// Error of λ on the worst zone of a contact. **Collective**
     fn pressure_error(&self, solved: &Solved, at: usize) -> Result<Option<f64>, SystemError> {
         let Solved { problem, solution, estimate, .. } = solved;
-        let u = Field::displacement(problem, &solution.displacement, self.session)?;
+        let u = Field::displacement(problem, &solution.displacement, self.session);
         let pressure = solution.pressure(&problem.contacts[at]);
         let points = trace_points(problem, &pressure, &u, self.session)?;
         let zones = pressure.zones();
@@ -137,7 +137,7 @@ impl Procedure<'_> {
         if !pressure.zones().is_empty() || estimate.difference == Some(0.0) {
             return Ok(true);
         }
-        let u = Field::displacement(problem, &solution.displacement, self.session)?;
+        let u = Field::displacement(problem, &solution.displacement, self.session);
         let points = trace_points(problem, &pressure, &u, self.session)?;
         let gaps: Vec<f64> = points.iter().filter(|point| point.is_complete()).map(|point| point.gap).collect();
         let change = gaps.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);

@@ -21,13 +21,13 @@ impl Procedure<'_> {
     pub(super) fn solve_after(&self, scene: Scene, before: &Solved) -> Result<Solved, SystemError> {
         let follows = scene.pairs.iter().any(|pair| pair.follows());
         let origins: Vec<Origin> = (0..scene.mesh.triangles.len()).map(Origin::whole).collect();
-        let begin = |from_before: bool| from_before.then(|| Predecessor::new(before, &origins, self.session)).transpose();
-        let found = self.solve_on_mesh(scene.clone(), begin(!follows)?.as_ref())?;
+        let begin = |from_before: bool| from_before.then(|| Predecessor::new(before, &origins, self.session));
+        let found = self.solve_on_mesh(scene.clone(), begin(!follows).as_ref())?;
         if !may_come_to_more(&found.ending) {
             return Ok(found);
         }
         self.observer.observe(Event::Again { from_before: follows });
-        let again = self.solve_on_mesh(scene, begin(follows)?.as_ref())?;
+        let again = self.solve_on_mesh(scene, begin(follows).as_ref())?;
         // What the scene comes to by itself is the result, unless only the step before leads to one.
         Ok(if again.ending.is_converged() || !follows { again } else { found })
     }

@@ -24,11 +24,11 @@ pub(crate) struct Predecessor<'s> {
 
 impl<'s> Predecessor<'s> {
     /// Takes a solution over, for a mesh whose macro triangles have these origins. **Collective**
-    pub fn new(solved: &'s Solved, origins: &'s [Origin], session: &Session) -> Result<Self, SystemError> {
+    pub fn new(solved: &'s Solved, origins: &'s [Origin], session: &Session) -> Self {
         let Solved { problem, solution, preconditioning, is_hard, estimate, .. } = solved;
-        let displacement = Field::displacement(problem, &solution.displacement, session)?;
+        let displacement = Field::displacement(problem, &solution.displacement, session);
         let contact = ContactSolution::new(problem.contacts.clone(), solution, false, (*preconditioning, *is_hard));
-        Ok(Self { problem, displacement, contact, estimate, origins })
+        Self { problem, displacement, contact, estimate, origins }
     }
 
     /// The next mesh with the contacts where this solution says, and where to start on it. **Collective**
@@ -37,7 +37,7 @@ impl<'s> Predecessor<'s> {
     /// [`SystemError::Case`] if a contact boundary cannot be placed or measured on that mesh.
     pub fn start_on(&self, scene: Scene, session: &Session) -> Result<(Discretisation, Start), SystemError> {
         let spaces = spaces(&scene, session.rank())?;
-        let displacement = self.displacement(&scene, &spaces[spaces.len() - 1], session)?;
+        let displacement = self.displacement(&scene, &spaces[spaces.len() - 1], session);
         self.contact.start_on(scene, spaces, displacement, session)
     }
 
@@ -54,7 +54,7 @@ impl<'s> Predecessor<'s> {
         if self.estimate.difference.is_none() {
             return Ok(Vec::new());
         }
-        let displacement = self.displacement(&problem.scene, problem.finest(), session)?;
+        let displacement = self.displacement(&problem.scene, problem.finest(), session);
         let apart = energy_apart(problem, solution, displacement, session)?;
         let Estimate { of_triangles, shares_left, .. } = self.estimate;
         // Of each triangle of this mesh: its difference, that of its parts, how far these are from it, and its share.
@@ -78,7 +78,7 @@ impl<'s> Predecessor<'s> {
 
     /// The same displacement on the next mesh: this rank's unknowns in the nodes' frames. Every rank knows it on the macro
     /// triangles that it had, and tells those that have their parts. **Collective**
-    fn displacement(&self, scene: &Scene, space: &Space, session: &Session) -> Result<Vec<f64>, SystemError> {
+    fn displacement(&self, scene: &Scene, space: &Space, session: &Session) -> Vec<f64> {
         let n = space.numbering.level.intervals;
         // Displacement, and how often it was told: a node may lie in several triangles.
         let (mut sums, mut others) = (vec![[0.0; 3]; space.own.len()], Vec::new());
@@ -99,11 +99,7 @@ impl<'s> Predecessor<'s> {
             }
         }
         session.add_to_owners(&space.own, &mut sums, others);
-        let mut unknowns = vec![0.0; space.local_unknowns()];
-        for (at, (u, sum)) in unknowns.chunks_exact_mut(2).zip(&sums).enumerate() {
-            let in_frame = space.to_frame(space.own.start + at, Point::new(sum[0], sum[1]) / sum[2]);
-            u.copy_from_slice(in_frame.as_slice());
-        }
-        Ok(unknowns)
+        let in_frame = |(node, [x, y, told]): (usize, [f64; 3])| <[f64; 2]>::from(space.to_frame(node, Point::new(x, y) / told));
+        space.own.clone().zip(sums).flat_map(in_frame).collect()
     }
 }

@@ -6,7 +6,7 @@
 use crate::body::{Constraints, RigidNodes, RigidSet};
 use crate::discretisation::{Scene, SystemError};
 use crate::geometry::Point;
-use crate::mesh::{Numbering, each_once, lattice};
+use crate::mesh::{MacroTriangle, Numbering, each_once};
 
 /// What moves a node.
 #[derive(Clone, Copy)]
@@ -190,21 +190,18 @@ fn nodes_of_blocks(
     };
     let tools: Vec<Option<usize>> = mesh.bodies.iter().map(tool_of).collect();
     let mut nodes: Vec<Option<BlockNode>> = (0..numbering.node_count()).map(|_| None).collect();
-    for (at, triangle) in mesh.triangles.iter().enumerate() {
-        let (piece, numbers) = (triangle.piece as usize, numbering.triangle(mesh, at));
-        let block = block_of_piece[piece];
-        for (i, j) in lattice::nodes(numbering.level.intervals) {
-            let node = numbers.node(i, j);
-            if nodes[node].is_some() {
-                continue;
-            }
-            let freedom = match set_of[node].or(tools[triangle.body as usize]) {
-                Some(set) => NodeFreedom::Set(set),
-                None => own_freedom(constraints, node, &mut sizes[block]),
-            };
-            let place = mesh.node_position(at, numbering.level, (i, j));
-            nodes[node] = Some(BlockNode { block, piece, place, freedom });
+    for (triangle, at, node) in numbering.nodes_of(mesh, 0..mesh.triangles.len()) {
+        if nodes[node].is_some() {
+            continue;
         }
+        let MacroTriangle { piece, body, .. } = mesh.triangles[triangle];
+        let (piece, block) = (piece as usize, block_of_piece[piece as usize]);
+        let freedom = match set_of[node].or(tools[body as usize]) {
+            Some(set) => NodeFreedom::Set(set),
+            None => own_freedom(constraints, node, &mut sizes[block]),
+        };
+        let place = mesh.node_position(triangle, numbering.level, at);
+        nodes[node] = Some(BlockNode { block, piece, place, freedom });
     }
     nodes.into_iter().flatten().collect()
 }

@@ -68,7 +68,7 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     let mut strain = vec![0.0; problem.scene.bodies.len()];
     let of_parts = problem.scene.mesh.parts.iter().zip(&strain_of_parts);
     of_parts.for_each(|(part, energy)| strain[part.body as usize] += energy);
-    let springs = SpringForces::new(problem, u, session)?;
+    let springs = SpringForces::new(problem, u, session);
     let NodeSums { work, bodies, mut reactions, rigid } =
         NodeSums::new(problem, solution, u, [&internal, &springs.nodes], session)?;
     reactions.extend(springs.reactions);

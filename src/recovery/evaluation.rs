@@ -47,7 +47,7 @@ impl<'a> Evaluation<'a> {
     /// # Errors
     /// [`SystemError`] from PETSc or an inverted triangle.
     pub fn new(problem: &'a Discretisation, solution: &'a Solution, session: &'a Session) -> Result<Self, SystemError> {
-        let u = Field::displacement(problem, &solution.displacement, session)?;
+        let u = Field::displacement(problem, &solution.displacement, session);
         let mut moved = [u.own().iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)];
         session.max(&mut moved);
         let balance = balance(problem, solution, &u, session)?;

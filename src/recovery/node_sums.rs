@@ -3,7 +3,6 @@
 use crate::body::{Constraint, Holders, RigidSet};
 use crate::discretisation::{Discretisation, Field, Solution, SystemError, nodal_forces};
 use crate::geometry::Point;
-use crate::mesh::lattice;
 use crate::petsc::Session;
 use std::collections::{HashMap, HashSet};
 
@@ -199,13 +198,9 @@ fn contact_forces_of_nodes(problem: &Discretisation, solution: &Solution) -> Has
 fn body_of_nodes(problem: &Discretisation, rank: usize) -> Vec<usize> {
     let (scene, space) = (&problem.scene, problem.finest());
     let mut body = vec![0; space.own.len()];
-    for &triangle in scene.partition.triangles_of(rank) {
-        let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
-        for (i, j) in lattice::nodes(space.numbering.level.intervals) {
-            if let Some(at) = numbers.node(i, j).checked_sub(space.own.start).filter(|&at| at < body.len()) {
-                body[at] = scene.mesh.triangles[triangle as usize].body as usize;
-            }
-        }
+    let triangles = scene.partition.triangles_of(rank).iter().map(|&triangle| triangle as usize);
+    for (triangle, _, node) in space.numbering.nodes_of(&scene.mesh, triangles).filter(|(.., node)| space.own.contains(node)) {
+        body[node - space.own.start] = scene.mesh.triangles[triangle].body as usize;
     }
     body
 }

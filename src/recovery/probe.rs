@@ -148,7 +148,7 @@ pub fn stress_forces(
         by_order!(problem.finest().numbering.level.order, add_stress_forces(problem, u, triangle, at, law, &mut forces))
     });
     agreed(session, added)?;
-    forces.sum(session)
+    Ok(forces.sum(session))
 }
 
 fn add_stress_forces<const N: usize>(
@@ -199,16 +199,10 @@ fn element_at<const N: usize>(problem: &Discretisation, triangle: usize, at: Poi
     let level = problem.finest().numbering.level;
     let count = level.triangles_per_edge();
     let scaled = problem.scene.mesh.lattice_point(triangle, level, at).map(|v| v.max(0.0)) * count as f64;
-    let step = level.order.degree();
     let [mut i, mut j] = [scaled.x as usize, scaled.y as usize].map(|k| k.min(count - 1));
     while i + j >= count {
         if i > j { i -= 1 } else { j -= 1 }
     }
-    let (xi, eta) = (scaled.x - i as f64, scaled.y - j as f64);
-    let (small, l) = if xi + eta > 1.0 && i + j + 2 <= count {
-        (Triangle::at(step * (i + 1), step * (j + 1), level.order, true), [xi + eta - 1.0, 1.0 - xi, 1.0 - eta])
-    } else {
-        (Triangle::at(step * i, step * j, level.order, false), [1.0 - xi - eta, xi, eta])
-    };
+    let (small, l) = Triangle::holding((i, j), (scaled.x - i as f64, scaled.y - j as f64), count, level.order);
     (problem.element(triangle, small), l)
 }

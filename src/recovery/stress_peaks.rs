@@ -66,19 +66,14 @@ type LatticeNode = (usize, (usize, usize));
 
 /// All nodes of this rank's macro triangles, each with its part and its number.
 fn all_nodes<'a>(problem: &'a Discretisation, session: &Session) -> impl Iterator<Item = (LatticeNode, usize, usize)> + 'a {
-    nodes_of(problem, problem.scene.partition.triangles_of(session.rank()).iter().copied())
+    nodes_of(problem, problem.scene.partition.triangles_of(session.rank()))
 }
 
 /// All nodes of some macro triangles.
-fn nodes_of<'a>(
-    problem: &'a Discretisation,
-    triangles: impl Iterator<Item = u32> + 'a,
-) -> impl Iterator<Item = (LatticeNode, usize, usize)> + 'a {
-    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
-    triangles.flat_map(move |triangle| {
-        let (part, numbers) = (mesh.triangles[triangle as usize].part as usize, numbering.triangle(mesh, triangle as usize));
-        lattice::nodes(numbering.level.intervals).map(move |at| ((triangle as usize, at), part, numbers.node(at.0, at.1)))
-    })
+fn nodes_of<'a>(problem: &'a Discretisation, triangles: &'a [u32]) -> impl Iterator<Item = (LatticeNode, usize, usize)> + 'a {
+    let mesh = &problem.scene.mesh;
+    let nodes = problem.finest().numbering.nodes_of(mesh, triangles.iter().map(|&triangle| triangle as usize));
+    nodes.map(|(triangle, at, node)| ((triangle, at), mesh.triangles[triangle].part as usize, node))
 }
 
 impl Evaluation<'_> {
@@ -106,7 +101,7 @@ impl Evaluation<'_> {
         self.session.max(&mut largest);
         // How far the node lies in the direction, its number, its place and its displacement.
         let mut own = vec![[f64::INFINITY; 6]; largest.len()];
-        for ((triangle, at), part, node) in nodes_of(problem, candidates.iter().copied()) {
+        for ((triangle, at), part, node) in nodes_of(problem, &candidates) {
             if von_mises(stress.at(part, node)) < (1.0 - ALIKE) * largest[part] {
                 continue;
             }
@@ -181,9 +176,7 @@ fn edges_at(problem: &Discretisation, nodes: &[usize], triangles: &[u32], sessio
     let (mesh, level) = (&problem.scene.mesh, problem.finest().numbering.level);
     let step = level.order.degree();
     let mut longest = vec![0.0_f64; nodes.len()];
-    for ((triangle, (i, j)), part, _) in
-        nodes_of(problem, triangles.iter().copied()).filter(|(_, part, node)| nodes[*part] == *node)
-    {
+    for ((triangle, (i, j)), part, _) in nodes_of(problem, triangles).filter(|(_, part, node)| nodes[*part] == *node) {
         let here = mesh.node_position(triangle, level, (i, j));
         let beside = [(i + step, j), (i, j + step)].into_iter().chain(i.checked_sub(step).map(|i| (i, j)));
         let beside = beside.chain(j.checked_sub(step).map(|j| (i, j)));

@@ -18,7 +18,6 @@ use crate::discretisation::{
     rigid_motions,
 };
 use crate::geometry::Point;
-use crate::mesh::lattice;
 use crate::multigrid::Sparse;
 use crate::petsc::Session;
 use nalgebra::DMatrix;
@@ -310,29 +309,22 @@ fn moved_forces(
     }
     let mut moved = vec![0.0; space.local_unknowns()];
     for (&node, &x) in places.iter().filter(|(node, _)| space.own.contains(node)) {
-        let (at, u) = (2 * (node - space.own.start), space.to_frame(node, set.mode(k, x)));
-        (moved[at], moved[at + 1]) = (u.x, u.y);
+        moved[2 * (node - space.own.start)..][..2].copy_from_slice(space.to_frame(node, set.mode(k, x)).as_slice());
     }
-    let moved = Field::displacement(problem, &moved, session)?;
-    let (mut forces, springs) = (internal_forces(problem, &moved, session)?.1, SpringForces::new(problem, &moved, session)?);
+    let moved = Field::displacement(problem, &moved, session);
+    let (mut forces, springs) = (internal_forces(problem, &moved, session)?.1, SpringForces::new(problem, &moved, session));
     forces.add(-1.0, &springs.nodes);
     Ok(forces)
 }
 
 /// Nodes of this rank in a body, and where they are.
 fn nodes_of_body(problem: &Discretisation, body: &str, rank: usize) -> BTreeMap<usize, Point> {
-    let (scene, space) = (&problem.scene, problem.finest());
-    let level = space.numbering.level;
+    let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let mut nodes = BTreeMap::new();
-    let is_own = |triangle: &&u32| scene.mesh.bodies[scene.mesh.triangles[**triangle as usize].body as usize] == body;
-    for &triangle in scene.partition.triangles_of(rank).iter().filter(is_own) {
-        let numbers = space.numbering.triangle(&scene.mesh, triangle as usize);
-        for (i, j) in lattice::nodes(level.intervals) {
-            let node = numbers.node(i, j);
-            if space.own.contains(&node) {
-                nodes.entry(node).or_insert_with(|| scene.mesh.node_position(triangle as usize, level, (i, j)));
-            }
-        }
+    let is_own = |triangle: &usize| mesh.bodies[mesh.triangles[*triangle].body as usize] == body;
+    let own = problem.scene.partition.triangles_of(rank).iter().map(|&triangle| triangle as usize).filter(is_own);
+    for (triangle, at, node) in space.numbering.nodes_of(mesh, own).filter(|(.., node)| space.own.contains(node)) {
+        nodes.entry(node).or_insert_with(|| mesh.node_position(triangle, space.numbering.level, at));
     }
     nodes
 }

@@ -5,7 +5,7 @@ mod support;
 
 use launch::{LIST_LEAKS, Suite, alone, mpirun, named};
 use mezha::petsc::{
-    Error, Gather, Index, Krylov, Matrix, Operator, Session, Stage, Vector, errors_are_final, options, partition, versions,
+    Error, Halo, Index, Krylov, Matrix, Operator, Session, Stage, Vector, errors_are_final, options, partition, versions,
 };
 use std::time::{Duration, Instant};
 use support::{HeldString, laplacian, ramp, share, sparse};
@@ -34,7 +34,7 @@ fn main() -> std::process::ExitCode {
             vector_algebra,
             owners_add_in_the_order_of_the_ranks,
             entries_arrive_by_rank_in_the_order_of_each,
-            gather_fetches_any_entry,
+            a_halo_brings_values_and_gives_sums_back,
             matrix_of_exact_counts,
             matrix_in_blocks,
             a_nest_sees_what_becomes_of_its_blocks,
@@ -197,15 +197,18 @@ fn entries_arrive_by_rank_in_the_order_of_each(session: &Session) {
     assert!(session.send_to::<f64>(&[], &[], 3).is_empty());
 }
 
-fn gather_fetches_any_entry(session: &Session) {
-    let x = ramp(session, 7);
-    let backwards: Vec<Index> = (0..7).rev().chain([3, 3]).collect();
-    let mut gather = Gather::new(&x, &backwards).unwrap();
-    assert_eq!(gather.fetch(&x).unwrap(), [6.0, 5.0, 4.0, 3.0, 2.0, 1.0, 0.0, 3.0, 3.0]);
-    let mut y = x.duplicate().unwrap();
-    y.axpy(10.0, &x).unwrap();
-    assert_eq!(gather.fetch(&y).unwrap()[0], 60.0);
-    assert!(Gather::new(&x, &[]).unwrap().fetch(&x).unwrap().is_empty());
+/// Every rank needs all nodes of all others.
+fn a_halo_brings_values_and_gives_sums_back(session: &Session) {
+    let own = share(session, 7);
+    let far: Vec<usize> = (0..7).filter(|node| !own.contains(node)).collect();
+    let value = |node: usize| [0.0, 10.0, 20.0].map(|more| node as f64 + more);
+    let mut here: Vec<[f64; 3]> = own.clone().map(value).collect();
+    let mut there = vec![[0.0; 3]; far.len()];
+    let halo = Halo::new(session, &own, &far);
+    halo.fetch(&here, &mut there, || ());
+    assert_eq!(there, far.iter().map(|&node| value(node)).collect::<Vec<_>>());
+    halo.give(&there, &mut here);
+    assert!(own.zip(here).all(|(node, sum)| sum == value(node).map(|value| session.size() as f64 * value)));
 }
 
 fn matrix_of_exact_counts(session: &Session) {

@@ -42,7 +42,7 @@ pub fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session
         })
     });
     agreed(session, added)?;
-    Ok((strain, forces.sum(session)?))
+    Ok((strain, forces.sum(session)))
 }
 
 /// Internal forces of one macro triangle: number, force and displacement of each of its nodes.

@@ -42,7 +42,7 @@ fn applied(problem: &Discretisation, session: &Session) -> Result<Field<2>, Syst
         session.agree(find_bad_force(scene, numbering, rank)).map_err(SystemError::Case)?;
         return Err(SystemError::Case("load or body_force: nodal forces are too large to be counted; make them smaller".into()));
     }
-    forces.sum(session)
+    Ok(forces.sum(session))
 }
 
 /// What holds mean motions, as nodal forces. **Collective**
@@ -57,7 +57,7 @@ fn mean_forces(problem: &Discretisation, session: &Session) -> Result<Field<2>, 
         // No triangle is turned inside out: the bodies have been measured.
         _ = body_forces(&scene.mesh, triangle, numbering, density, &mut |node, force| forces.add_at(node, force));
     }
-    forces.sum(session)
+    Ok(forces.sum(session))
 }
 
 /// The load or force on this rank's macro triangles that has no finite value.

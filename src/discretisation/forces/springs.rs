@@ -1,6 +1,5 @@
 //! What elastic supports do: their forces on the bodies, and the energy in them.
 
-use crate::discretisation::error::SystemError;
 use crate::discretisation::field::Field;
 use crate::discretisation::levels::Discretisation;
 use crate::geometry::Point;
@@ -18,10 +17,7 @@ pub struct SpringForces {
 
 impl SpringForces {
     /// Those of a displacement. **Collective**
-    ///
-    /// # Errors
-    /// [`SystemError`] from PETSc.
-    pub fn new(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Self, SystemError> {
+    pub fn new(problem: &Discretisation, u: &Field<2>, session: &Session) -> Self {
         let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
         let mesh = &scene.mesh;
         let mut nodes = Field::<2>::zeros(&problem.scene, problem.finest(), session);
@@ -44,6 +40,6 @@ impl SpringForces {
         session.sum(&mut sums);
         let energy = sums[2 * scene.springs.len()];
         let reactions = sums.chunks_exact(2).map(|force| Point::new(force[0], force[1])).collect();
-        Ok(Self { nodes: nodes.sum(session)?, reactions, energy })
+        Self { nodes: nodes.sum(session), reactions, energy }
     }
 }

@@ -102,7 +102,7 @@ impl BoundaryEdge {
                 1 => (last - k * step, k * step),
                 _ => (0, last - k * step),
             };
-            let beside = lattice::Triangle::at(i, j, numbering.level.order, false);
+            let beside = lattice::Triangle::at(i, j, numbering.level.order);
             Self { nodes, points: places.clone(), places, straight, triangle: triangle as usize, beside, side }
         };
         (0..n / step).map(one).collect()

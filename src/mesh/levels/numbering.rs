@@ -63,6 +63,18 @@ impl Numbering {
         Self { level, first, partition: partition.clone() }
     }
 
+    /// The nodes of some macro triangles, of each in the order of its lattice: the triangle, the place in its lattice, the number.
+    pub fn nodes_of<'a>(
+        &'a self,
+        mesh: &'a MacroMesh,
+        triangles: impl Iterator<Item = usize> + 'a,
+    ) -> impl Iterator<Item = (usize, (usize, usize), usize)> + 'a {
+        triangles.flat_map(move |triangle| {
+            let numbers = self.triangle(mesh, triangle);
+            lattice::nodes(self.level.intervals).map(move |(i, j)| (triangle, (i, j), numbers.node(i, j)))
+        })
+    }
+
     /// Number of nodes over all ranks.
     pub fn node_count(&self) -> usize {
         self.first[self.first.len() - 1]
@@ -194,15 +206,9 @@ mod tests {
 
     /// Every node of every macro triangle: its triangle, its place in the lattice, its number, its position.
     fn all_nodes(mesh: &MacroMesh, numbering: &Numbering) -> Vec<(usize, (usize, usize), usize, Point)> {
-        let n = numbering.level.intervals;
-        let of = |triangle: usize| {
-            let numbers = numbering.triangle(mesh, triangle);
-            lattice::nodes(n).map(move |(i, j)| {
-                let x = mesh.node_position(triangle, numbering.level, (i, j));
-                (triangle, (i, j), numbers.node(i, j), x)
-            })
-        };
-        (0..mesh.triangles.len()).flat_map(of).collect()
+        let nodes = numbering.nodes_of(mesh, 0..mesh.triangles.len());
+        let place = |triangle: usize, at: (usize, usize)| mesh.node_position(triangle, numbering.level, at);
+        nodes.map(|(triangle, at, node)| (triangle, at, node, place(triangle, at))).collect()
     }
 
     /// Positions by number.
@@ -263,7 +269,7 @@ mod tests {
             assert!(numbering.level.is_one_triangle());
             for triangle in 0..mesh.triangles.len() {
                 let numbers = numbering.triangle(&mesh, triangle);
-                let all = lattice::Triangle::at(0, 0, order, false).nodes::<6>().map(|(i, j)| numbers.node(i, j));
+                let all = lattice::Triangle::at(0, 0, order).nodes::<6>().map(|(i, j)| numbers.node(i, j));
                 assert_eq!(numbers.of_one::<6>()[..nodes], all[..nodes]);
             }
         }

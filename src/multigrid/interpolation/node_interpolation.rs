@@ -30,7 +30,7 @@ pub struct NodeInterpolation {
     unparented: Vec<u32>,
     /// Coarse nodes here, and how many are elsewhere: in lists they come behind those here.
     coarse: usize,
-    halo: Option<Halo>,
+    halo: Halo,
     far: usize,
 }
 
@@ -106,8 +106,7 @@ impl NodeInterpolation {
         let parents = rows.iter().flat_map(|(_, pair)| pair).chain(sides);
         let far = each_once(parents.filter(|node| !coarse.own.contains(node)));
         let (even, weighted, turned) = lists(&rows, fine, coarse, &far);
-        // All ranks take the same way here, whatever they own: a halo is made by all of them together.
-        let halo = (session.size() > 1).then(|| Halo::new(session, &coarse.own, &far));
+        let halo = Halo::new(session, &coarse.own, &far);
         let whole = whole.iter().map(|triangle| {
             let first = fine.numbering.triangle(&scene.mesh, *triangle as usize).node(1, 1) - fine.own.start;
             let coarse = TriangleNodes::new(&numbers(triangle), coarse, &coarse.own, &far);
@@ -145,7 +144,7 @@ impl NodeInterpolation {
             };
             push(coupling, (coupling.node - fine.start) as u32, place as u32, &mut weighted, &mut turned);
         }
-        let halo = (session.size() > 1).then(|| Halo::new(session, coarse, &far));
+        let halo = Halo::new(session, coarse, &far);
         let unparented = (0..fine.len() as u32).filter(|&node| !has_parent[node as usize]).collect();
         let (whole, halved, even) = (Vec::new(), HalvedRows::default(), Vec::new());
         Self { whole, n: 0, halved, even, weighted, turned, unparented, coarse: coarse.len(), halo, far: far.len() }
@@ -159,10 +158,7 @@ impl NodeInterpolation {
     /// `y += P x`, or `y = P x`. **Collective**
     pub fn prolong<const ADD: bool>(&self, x: &[[f64; 2]], y: &mut [[f64; 2]], room: &mut InterpolationRoom) {
         let mut far = vec![[0.0; 2]; self.far];
-        match &self.halo {
-            Some(halo) => halo.fetch(x, &mut far, || self.prolong_inside::<ADD>(true, x, &[], y, room)),
-            None => self.prolong_inside::<ADD>(true, x, &[], y, room),
-        }
+        self.halo.fetch(x, &mut far, || self.prolong_inside::<ADD>(true, x, &[], y, room));
         self.prolong_inside::<ADD>(false, x, &far, y, room);
         let coarse = self.coarse;
         let value = |at: u32| if (at as usize) < coarse { x[at as usize] } else { far[at as usize - coarse] };
@@ -262,9 +258,7 @@ impl NodeInterpolation {
             add(parent, [0, 1].map(|k| block[0][k] * y[0] + block[1][k] * y[1]));
         }
         self.halved.restrict(y, x);
-        if let Some(halo) = &self.halo {
-            halo.give(&far, x);
-        }
+        self.halo.give(&far, x);
     }
 }
 

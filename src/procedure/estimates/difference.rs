@@ -63,9 +63,9 @@ impl Difference {
     ) -> Result<Self, SystemError> {
         let mut apart = coarse.displacement(&problem.scene, problem.finest(), session.rank());
         apart.iter_mut().zip(&solution.displacement).for_each(|(before, now)| *before = now - *before);
-        let u = Field::displacement(problem, &solution.displacement, session)?;
+        let u = Field::displacement(problem, &solution.displacement, session);
         let whole = whole_energy(problem, &u, session)?;
-        let apart = Field::displacement(problem, &apart, session)?;
+        let apart = Field::displacement(problem, &apart, session);
         let probes = accuracy.map_or_else(Vec::new, Accuracy::probes);
         let probes = probes.iter().map(|point| at_probe(problem, point, &u, &apart, session)).collect::<Result<_, _>>()?;
         let cells = if accuracy.is_some() { cell_energies(problem, &apart, session)? } else { Vec::new() };

@@ -64,7 +64,7 @@ impl Duals<'_> {
             Quantity::Pressure(name) => of_pressure(name, &|at, pressure| self.pressure_weights(at, pressure)),
             Quantity::Peak(name) => of_pressure(name, &|_, pressure| peak_weights(pressure)),
             Quantity::Ends(name) => of_pressure(name, &|_, pressure| end_weights(pressure)),
-            Quantity::Displacement(point) => Some(of_load(point_force(problem, point, solution, system)?)),
+            Quantity::Displacement(point) => Some(of_load(point_force(problem, point, solution, system))),
             Quantity::Stress(point) => Some(of_load(self.stress_load(problem, point, solution, system)?)),
         })
     }
@@ -103,7 +103,7 @@ impl Duals<'_> {
             let before = coarse.displacement(&problem.scene, space, session.rank());
             change.iter_mut().zip(before).for_each(|(now, before)| *now -= before);
         }
-        let change = Field::displacement(problem, &change, session)?;
+        let change = Field::displacement(problem, &change, session);
         let Some(region) = problem.scene.mesh.region(&point.body) else {
             return Ok(vec![0.0; space.local_unknowns()]);
         };
@@ -152,14 +152,9 @@ fn end_weights(pressure: &ContactPressure) -> Vec<f64> {
 }
 
 /// A force of one at a point, in the direction that it moves in: this rank's part. **Collective**
-fn point_force(
-    problem: &Discretisation,
-    point: &ProbePoint,
-    solution: &Solution,
-    system: &System,
-) -> Result<Vec<f64>, SystemError> {
+fn point_force(problem: &Discretisation, point: &ProbePoint, solution: &Solution, system: &System) -> Vec<f64> {
     let session = system.session();
-    let u = Field::displacement(problem, &solution.displacement, session)?;
+    let u = Field::displacement(problem, &solution.displacement, session);
     let mut force = Field::<2>::zeros(&problem.scene, problem.finest(), session);
     let region = problem.scene.mesh.region(&point.body);
     for (triangle, at) in region.map_or_else(Vec::new, |region| holding(problem, region, point.point, session)) {
@@ -168,7 +163,7 @@ fn point_force(
         let direction = moved.try_normalize(0.0).unwrap_or(Point::y());
         shapes.into_iter().for_each(|(node, value)| force.add_at(node, value * direction));
     }
-    Ok(load(problem, &force.sum(session)?))
+    load(problem, &force.sum(session))
 }
 
 /// What each cell of this rank's macro triangles counts for a goal: the product of what is left there of the solution and of the
@@ -179,14 +174,14 @@ pub(crate) fn weighted(
     dual: &[f64],
     session: &Session,
 ) -> Result<Vec<Cells>, SystemError> {
-    let dual = cell_energies(problem, &surplus(problem, dual, session)?, session)?;
+    let dual = cell_energies(problem, &surplus(problem, dual, session), session)?;
     // Rounding may leave a rigid motion a little less than nothing.
     Ok(left.iter().zip(dual).map(|(u, z)| u.combined(&z, |u, z| (u * z).max(0.0).sqrt())).collect())
 }
 
 /// What the finest level adds to a displacement: its difference from its interpolant on the next coarser one. **Collective**
-fn surplus(problem: &Discretisation, unknowns: &[f64], session: &Session) -> Result<Field<2>, SystemError> {
-    let whole = Field::displacement(problem, unknowns, session)?;
+fn surplus(problem: &Discretisation, unknowns: &[f64], session: &Session) -> Field<2> {
+    let whole = Field::displacement(problem, unknowns, session);
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let level = space.numbering.level;
     let left = space.unknowns_of(&problem.scene, session.rank(), |triangle| {

@@ -70,8 +70,8 @@ pub(crate) fn energy_apart(
 ) -> Result<Vec<f64>, SystemError> {
     other.iter_mut().zip(&solution.displacement).for_each(|(other, now)| *other = now - *other);
     let [u, apart] = [&solution.displacement, &other].map(|values| Field::displacement(problem, values, session));
-    let whole = whole_energy(problem, &u?, session)?;
-    let parts = without_points(problem, local_strain_energy(problem, &apart?, session)?, session);
+    let whole = whole_energy(problem, &u, session)?;
+    let parts = without_points(problem, local_strain_energy(problem, &apart, session)?, session);
     Ok(parts.into_iter().map(|part| share(part, whole)).collect())
 }
 

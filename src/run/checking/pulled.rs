@@ -4,7 +4,6 @@ use crate::body::{Applied, RigidNodes, applied_forces};
 use crate::contact::Law;
 use crate::discretisation::Scene;
 use crate::geometry::Point;
-use crate::mesh::lattice;
 
 /// A share of the force on a body that is rounding.
 const ROUNDING: f64 = 1e-9;
@@ -58,9 +57,8 @@ fn forces_on_bodies(scene: &Scene) -> Option<Vec<Point>> {
     let mesh = &scene.mesh;
     let numbering = scene.macro_numbering().ok()?;
     let mut body_of = vec![0; numbering.node_count()];
-    for (at, triangle) in mesh.triangles.iter().enumerate() {
-        let numbers = numbering.triangle(mesh, at);
-        lattice::nodes(numbering.level.intervals).for_each(|(i, j)| body_of[numbers.node(i, j)] = triangle.body as usize);
+    for (triangle, _, node) in numbering.nodes_of(mesh, 0..mesh.triangles.len()) {
+        body_of[node] = mesh.triangles[triangle].body as usize;
     }
     let mut forces = vec![Point::zeros(); mesh.bodies.len()];
     let applied = Applied { parts: &scene.parts(), loads: &scene.loads, point_loads: &scene.point_loads };

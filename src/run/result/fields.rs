@@ -190,11 +190,8 @@ pub fn macro_edges(found: &Evaluation, wanted: impl Fn(u32) -> bool) -> Vec<Draw
         let edges = mesh.triangles[triangle as usize].edges;
         let is_own = |side: usize| mesh.edges[edges[side] as usize].triangles[0] == Some(triangle);
         for side in (0..3).filter(|&side| is_own(side) && wanted(edges[side])) {
-            for DrawnNode { place, displacement, .. } in (0..=n).step_by(n / shown).map(|k| node(lattice::side_node(n, side, k)))
-            {
-                values.extend(place);
-                values.extend(displacement);
-            }
+            let along = (0..=n).step_by(n / shown).map(|k| node(lattice::side_node(n, side, k)));
+            values.extend(along.flat_map(|DrawnNode { place, displacement, .. }| place.into_iter().chain(displacement)));
         }
     }
     let edge = |v: &[f64]| DrawnEdge(v.chunks_exact(4).map(|v| ([v[0], v[1]], [v[2], v[3]])).collect());

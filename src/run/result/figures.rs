@@ -57,7 +57,7 @@ impl Run<'_> {
         let drawn: Vec<DrawnContact> = contacts.iter().enumerate().map(drawn).collect();
         let shown: BTreeSet<&str> = summary.with_figures().into_iter().collect();
         let has_figures = |at: usize| shown.contains(contacts[at].pair.name.as_str());
-        let zooms = self.zooms(summary, contacts, &drawn, &facets, has_figures)?;
+        let zooms = self.zooms(summary, contacts, &drawn, &facets, has_figures);
         let zoomed = |drawing: Drawing| (fields::facets_of_zoom(found, &stress, &drawing.zoom), drawing);
         let zooms: Vec<(Vec<Facet>, Drawing)> = zooms.into_iter().map(zoomed).collect();
         if self.session.rank() != 0 {
@@ -117,7 +117,7 @@ impl Run<'_> {
         drawn: &[DrawnContact],
         facets: &[Facet],
         has_figures: impl Fn(usize) -> bool,
-    ) -> Result<Vec<Drawing>, RunError> {
+    ) -> Vec<Drawing> {
         let mut all: Vec<(f64, Drawing)> = Vec::new();
         for (at, contact) in contacts.iter().enumerate().filter(|(at, _)| has_figures(*at)) {
             let closed = summary.contact.get(&contact.pair.name).and_then(|contact| contact.closed.as_deref());
@@ -139,7 +139,7 @@ impl Run<'_> {
             let ([contact, number], zoom) = (v[0].map(|v| v as usize), ContactZoom { interval: v[1], frame: [v[2], v[3]] });
             Drawing { contact, number, zoom }
         };
-        Ok(self.session.gather_all(&own).as_chunks().0.chunks_exact(4).map(read).collect())
+        self.session.gather_all(&own).as_chunks().0.chunks_exact(4).map(read).collect()
     }
 }
 

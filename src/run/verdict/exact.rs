@@ -116,22 +116,17 @@ fn displacement_error(
     exact: &[crate::geometry::Formula; 2],
 ) -> Result<f64, String> {
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
-    let n = numbering.level.intervals;
     let (mut sums, mut outcome) = ([0.0; 2], Ok(()));
-    for &triangle in problem.scene.partition.triangles_of(session.rank()) {
-        if !region.holds(&mesh.triangles[triangle as usize]) {
-            continue;
+    let own = problem.scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
+    let own = own.filter(|&triangle| region.holds(&mesh.triangles[triangle]));
+    for (triangle, at, node) in numbering.nodes_of(mesh, own) {
+        let x = mesh.node_position(triangle, numbering.level, at);
+        let wanted = Point::new(exact[0].value(&[x.x, x.y]), exact[1].value(&[x.x, x.y]));
+        if outcome.is_ok() && !wanted.iter().all(|component| component.is_finite()) {
+            outcome = exact.iter().try_for_each(|formula| formula.finite_value(x).map(|_| ()));
         }
-        let numbers = numbering.triangle(mesh, triangle as usize);
-        for (i, j) in crate::mesh::lattice::nodes(n) {
-            let x = mesh.node_position(triangle as usize, numbering.level, (i, j));
-            let wanted = Point::new(exact[0].value(&[x.x, x.y]), exact[1].value(&[x.x, x.y]));
-            if outcome.is_ok() && !wanted.iter().all(|component| component.is_finite()) {
-                outcome = exact.iter().try_for_each(|formula| formula.finite_value(x).map(|_| ()));
-            }
-            sums[0] += (u.point(numbers.node(i, j)) - wanted).norm_squared();
-            sums[1] += wanted.norm_squared();
-        }
+        sums[0] += (u.point(node) - wanted).norm_squared();
+        sums[1] += wanted.norm_squared();
     }
     session.agree(outcome)?;
     session.sum(&mut sums);
