@@ -39,7 +39,7 @@ fn sweep(first: &[Disc], second: &[Disc], mut show: impl FnMut(usize, usize)) {
         discs.iter().enumerate().map(|(at, disc)| (disc.interval()[0], list, at)).collect()
     };
     let mut beginnings = [of_list(0, first), of_list(1, second)].concat();
-    beginnings.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    beginnings.sort_by(|a, b| a.0.total_cmp(&b.0));
     let discs = [first, second];
     let mut open: [Vec<usize>; 2] = Default::default();
     for (start, list, at) in beginnings {
@@ -48,6 +48,7 @@ fn sweep(first: &[Disc], second: &[Disc], mut show: impl FnMut(usize, usize)) {
         for &k in &open[other] {
             if list == 0 { show(at, k) } else { show(k, at) }
         }
+        open[list].retain(|&k| discs[list][k].interval()[1] >= start);
         open[list].push(at);
     }
 }
