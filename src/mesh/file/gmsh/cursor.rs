@@ -76,20 +76,27 @@ impl<'a> Cursor<'a> {
 
     /// The next line as numbers, at least `least` of them.
     pub fn line_of<T: FromStr>(&mut self, section: &str, least: usize) -> Result<Vec<T>, MeshError> {
-        let line = self.line_in(section)?;
-        let found: Result<Vec<T>, _> = line.split_whitespace().map(str::parse).collect();
-        match found {
-            Ok(values) if values.len() >= least => Ok(values),
-            _ => Err(self.numbers_missing(section, least, line.as_bytes())),
+        let mut values = Vec::new();
+        self.line_in_place_of(section, least, &mut values)?;
+        Ok(values)
+    }
+
+    /// The next line as numbers, at least `least` of them, in the place of those of another line.
+    pub fn line_in_place_of<T: FromStr>(&mut self, section: &str, least: usize, values: &mut Vec<T>) -> Result<(), MeshError> {
+        let line = self.next_bytes().ok_or_else(|| self.cut_off(section))?;
+        values.clear();
+        for word in words(line) {
+            values.push(number(word).ok_or_else(|| self.numbers_missing(section, least, line))?);
         }
+        if values.len() < least { Err(self.numbers_missing(section, least, line)) } else { Ok(()) }
     }
 
     /// The numbers at the beginning of the next line.
     pub fn line_into<T: FromStr>(&mut self, section: &str, values: &mut [T]) -> Result<(), MeshError> {
         let line = self.next_bytes().ok_or_else(|| self.cut_off(section))?;
-        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        let mut words = words(line);
         for value in values.iter_mut() {
-            *value = match words.next().and_then(|word| std::str::from_utf8(word).ok()?.parse().ok()) {
+            *value = match words.next().and_then(number) {
                 Some(number) => number,
                 None => return Err(self.numbers_missing(section, values.len(), line)),
             };
@@ -186,6 +193,16 @@ impl<'a> Cursor<'a> {
             }
         }
     }
+}
+
+/// The words of a line.
+fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+    line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+}
+
+/// A word as a number.
+fn number<T: FromStr>(word: &[u8]) -> Option<T> {
+    std::str::from_utf8(word).ok()?.parse().ok()
 }
 
 /// Reads a line of so many whole numbers, without signs and parted by single spaces, and gives its length; `None` for any other.

@@ -29,10 +29,10 @@ pub(super) fn read_nodes(cursor: &mut Cursor, elements: &mut Elements) -> Result
 pub(super) fn read_elements(cursor: &mut Cursor, groups: &Groups, elements: &mut Elements) -> Result<(), MeshError> {
     const SECTION: &str = "Elements";
     let count: u64 = cursor.line_of(SECTION, 1)?[0];
-    let mut read = 0;
+    let (mut read, mut words) = (0, Vec::<i64>::new());
     while read < count {
         if cursor.is_text() {
-            let words: Vec<i64> = cursor.line_of(SECTION, 3)?;
+            cursor.line_in_place_of(SECTION, 3, &mut words)?;
             let kind = ElementKind::of(words[1]).map_err(|words| cursor.error(words))?;
             let behind = usize::try_from(words[2]).ok().and_then(|tags| words.get(3..)?.split_at_checked(tags));
             let Some((tags, nodes)) = behind.filter(|(_, nodes)| nodes.len() >= kind.nodes) else {
