@@ -121,7 +121,7 @@ fn a_result_for_which_there_is_no_room_has_no_fields() {
 fn a_result_for_which_there_is_little_room_has_its_numbers() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let run = format!("{MEZHA} run {} --set mesh.refine=3 --out result --quiet", case("patch_flat/case.toml"));
-    let (code, _, errors) = shell(folder.path(), &format!("ulimit -f 12 && exec {run}"));
+    let (code, _, errors) = shell(folder.path(), &format!("ulimit -f 20 && exec {run}"));
     assert_eq!(code, Some(0), "{errors}");
     for file in ["deformed_seam_1.svg", "report.html"] {
         let told =

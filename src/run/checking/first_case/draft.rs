@@ -290,7 +290,7 @@ angle = 0.0               # and does not turn
         for curve in curves.iter().take(MOST_NAMED) {
             let (name, body) = (quoted(curve.name), quoted(&self.guesses.mesh.bodies[curve.body]));
             let sizes = [curve.length, curve.low.x, curve.high.x, curve.low.y, curve.high.y];
-            let [length, left, right, low, high] = sizes.map(short);
+            let [length, left, right, low, high] = sizes.map(|size| short(digits(size, curve.length)));
             let _ = writeln!(text, "#   {name}: of {body}, length {length}, x from {left} to {right}, y from {low} to {high}");
         }
         if curves.len() > MOST_NAMED {
