@@ -28,15 +28,6 @@ pub struct ProposedTool {
     pub text: String,
 }
 
-/// Where a boundary lies nearest to a tool that faces it.
-struct Nearest {
-    distance: f64,
-    /// Outward normal of the body.
-    normal: Point,
-    boundary: String,
-    length: f64,
-}
-
 /// The tools that the curves without triangles may be drawn for, where they are straight or circles, face a boundary and are none of
 /// the tools of the case.
 pub fn proposed_tools(mesh: &MacroMesh, tools: &[Tool], contacts: &[Pair]) -> Vec<ProposedTool> {
@@ -45,22 +36,21 @@ pub fn proposed_tools(mesh: &MacroMesh, tools: &[Tool], contacts: &[Pair]) -> Ve
     let is_new = |curve: &&LooseCurve| !tools.iter().any(|tool| is_drawn(curve, &tool.surface));
     let proposed = mesh.loose.iter().filter(is_new).filter_map(|curve| {
         let (shape, surface) = shape_of(curve)?;
-        let nearest = nearest(mesh, tools, &surface)?;
+        let (boundary, motion) = pressed(mesh, tools, &surface)?;
         let name = names.fresh(&curve.name);
-        let between = [nearest.boundary.clone(), format!("rigid.{name}")];
-        let contact = names_of_contacts.fresh(&common_name(&[nearest.boundary.clone(), name.clone()]));
-        let [boundary, side] = between.map(|name| quoted(&name));
-        let text = format!("[rigid.{name}]\n{shape}\n{}\n[contact.{contact}]\nbetween = [{boundary}, {side}]\n", moved(&nearest));
-        Some(ProposedTool { boundary: nearest.boundary, text })
+        let contact = names_of_contacts.fresh(&common_name(&[boundary.clone(), name.clone()]));
+        let sides = [&boundary, &format!("rigid.{name}")].map(|side| quoted(side)).join(", ");
+        let text = format!("[rigid.{name}]\n{shape}\n{motion}\n[contact.{contact}]\nbetween = [{sides}]\n");
+        Some(ProposedTool { boundary, text })
     });
     proposed.collect()
 }
 
-/// How the example moves a tool: along one axis, until it presses.
-fn moved(nearest: &Nearest) -> String {
-    let axis = nearest.normal.iamax();
-    let way = -nearest.normal[axis].signum() * (nearest.distance + PRESSED * nearest.length);
-    let words = "example: how far it is moved; or force = [fx, fy] in the place of ux and uy";
+/// How the example moves a tool: along one axis, against the normal of what it presses on.
+fn moved(normal: Point, way: f64) -> String {
+    let axis = normal.iamax();
+    let way = -normal[axis].signum() * way;
+    let words = "example: how far it is moved; or, in the place of this, force = [fx, fy]";
     let key = |k: usize, key: &str| match k == axis {
         true => format!("{key} = {}   # {words}\n", short(way)),
         false => format!("{key} = 0.0\n"),
@@ -99,8 +89,8 @@ fn shape_of(curve: &LooseCurve) -> Option<(String, SurfacePart)> {
     is_straight.then(|| (format!("line = {ends:?}"), SurfacePart { curve: Curve::Line(ends), range: [0.0, 1.0] }))
 }
 
-/// Where a named boundary that a surface faces is nearest to it.
-fn nearest(mesh: &MacroMesh, tools: &[Tool], surface: &SurfacePart) -> Option<Nearest> {
+/// The named boundary that a surface faces nearest, and how the example moves the surface until it presses there.
+fn pressed(mesh: &MacroMesh, tools: &[Tool], surface: &SurfacePart) -> Option<(String, String)> {
     let curves = mesh.physical_curves().into_iter().filter(|curve| !tools.iter().any(|tool| tool.has(&curve.name)));
     let named = curves.flat_map(|boundary| boundary.edges.iter().map(move |&edge| (boundary, edge)));
     let places = named.flat_map(|(boundary, edge)| [0.0, 0.5, 1.0].map(|t| (boundary, edge, t)));
@@ -110,6 +100,6 @@ fn nearest(mesh: &MacroMesh, tools: &[Tool], surface: &SurfacePart) -> Option<Ne
         (across.dot(&normal).abs() > FACES).then(|| ((foot - x).norm(), normal, boundary))
     });
     let (distance, normal, boundary) = facing.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let length = boundary.edges.iter().map(|&edge| mesh.edge_length(edge)).sum();
-    Some(Nearest { distance, normal, boundary: boundary.name.clone(), length })
+    let length: f64 = boundary.edges.iter().map(|&edge| mesh.edge_length(edge)).sum();
+    Some((boundary.name.clone(), moved(normal, distance + PRESSED * length)))
 }
