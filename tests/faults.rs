@@ -98,7 +98,7 @@ fn files_that_are_limited_end_a_run_in_order() {
     // Under mpirun the limit is first that of MPI's own files.
     let folder = tempfile::tempdir().expect("a temporary folder");
     let run = format!("{MEZHA} run {} --set mesh.refine=1 --out deep/result --quiet", case("patch_flat/case.toml"));
-    let (code, _, errors) = shell(folder.path(), &format!("ulimit -f 16 && exec {run}"));
+    let (code, _, errors) = shell(folder.path(), &format!("ulimit -f 3 && exec {run}"));
     assert_eq!(code, Some(1), "{errors}");
     assert!(errors.contains("mezha: cannot ") && errors.contains("File too large"), "{errors}");
     assert_eq!(names_in(folder.path()), Vec::<String>::new(), "something is left");
@@ -114,6 +114,27 @@ fn a_result_for_which_there_is_no_room_has_no_fields() {
     assert!(errors.contains("mezha: warning: there are no fields in the result: cannot write"), "{errors}");
     let names = names_in(&folder.path().join("result"));
     assert!(names.contains(&"summary.json".into()) && !names.contains(&"fields.vtu".into()), "{names:?}");
+}
+
+/// A limit below figures and report takes these alone: the numbers are there, and the summary lists what is.
+#[test]
+fn a_result_for_which_there_is_little_room_has_its_numbers() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let run = format!("{MEZHA} run {} --set mesh.refine=3 --out result --quiet", case("patch_flat/case.toml"));
+    let (code, _, errors) = shell(folder.path(), &format!("ulimit -f 20 && exec {run}"));
+    assert_eq!(code, Some(0), "{errors}");
+    for file in ["deformed_seam_1.svg", "report.html"] {
+        let told =
+            errors.lines().any(|line| line.contains("a file is missing in the result: cannot write") && line.contains(file));
+        assert!(told && errors.contains("; make room there (ulimit -f, quota, disk)"), "{file}: {errors}");
+    }
+    let names = names_in(&folder.path().join("result"));
+    let has = |name: &str| names.contains(&name.into());
+    assert!(["summary.json", "contacts.csv", "case.toml"].into_iter().all(has), "{names:?}");
+    assert!(!has("deformed_seam_1.svg") && has("gap_seam.svg") && !has("report.html") && !has("fields.vtu"), "{names:?}");
+    let text = std::fs::read_to_string(folder.path().join("result/summary.json")).expect("a summary");
+    let summary: Value = serde_json::from_str(&text).expect("JSON");
+    assert!(!summary["files"].to_string().contains("report.html"), "{text}");
 }
 
 /// Where a system is factorised and small, each rank does so by itself: MUMPS adds in the order in which messages come.

@@ -136,6 +136,10 @@ fn contacts_that_check_refuses_are_left_out_of_first_cases() {
         assert_eq!(text.matches("\n[contact.").count(), others, "{name}:\n{text}");
         let (code, _, errors) = mezha_in(folder.path(), None, &["check", "case.toml"]);
         assert_eq!(code, Some(0), "{name}: {errors}\n{text}");
+        // Where no contact of a body is left, nothing would carry a load of it.
+        let no_load = "Nothing presses yet: the contact that would carry a load of \"upper\" is left out.";
+        assert!(text.contains(no_load) == (others == 0) && !text.contains("\n[load."), "{name}:\n{text}");
+        assert!(!text.contains("000000"), "coordinates that are rounding are 0:\n{text}");
         let (_, _, errors) = mezha_in(folder.path(), None, &["new", "mesh.msh"]);
         assert!(errors.contains("is left out: ") && errors.contains(why), "{name}: {errors}");
     }
@@ -246,6 +250,139 @@ fn check_lists_what_acts() {
     }
     let round = told(&["plane=\"axisymmetric\""]);
     assert!(round.contains("resultant (0, -12.57)"), "the whole disc: {round}");
+}
+
+/// Rigid tools and plates are listed as such, and as what stays where it is drawn.
+#[test]
+fn check_tells_what_stays() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &two_blocks([(3, 2, 1), (4, 2, 2)]).text(), GOOD).display().to_string();
+    for (motion, words) in [("uy = 0", "body rigid.die: rigid, stays"), ("uy = -0.1", "body rigid.die: rigid")] {
+        let die = format!("rigid.die={{ line = [[0, 2], [1, 2]], ux = 0, {motion}, angle = 0 }}");
+        let sets = [die.as_str(), "load={}", "contact.die.between=[\"top\", \"rigid.die\"]"];
+        let told: Vec<&str> = ["check", &file].into_iter().chain(sets.iter().flat_map(|set| ["--set", set])).collect();
+        let (code, output, errors) = mezha_in(folder.path(), None, &told);
+        assert!(code == Some(0) && output.lines().any(|line| line == words), "{output}{errors}");
+        assert!(!output.contains("rigid.die: E"), "{output}");
+    }
+}
+
+/// Without contacts a goal of contacts is refused, and the contacts that would be are proposed all the same.
+#[test]
+fn contacts_are_proposed_beside_a_goal_that_lacks_them() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let case = format!("accuracy.pressure = 0.1\n{CASE}[support.high]\nbody = \"upper\"\nmean = true\nux = 0.0\nangle = 0.0\n");
+    let file = write_scene(folder.path(), &two_blocks([(3, 2, 1), (2, 2, 2)]).text(), &case);
+    let check = || mezha_in(folder.path(), None, &["check", &file.to_string_lossy()]);
+    let (code, _, errors) = check();
+    assert!(code == Some(2) && errors.contains("there is no contact in this case; leave it out"), "{errors}");
+    assert!(errors.contains(CONTACT.trim_end()), "{errors}");
+    std::fs::write(&file, case + CONTACT).expect("a case can be written");
+    let (code, output, errors) = check();
+    assert_eq!((code, output.contains("paste")), (Some(0), false), "{output}{errors}");
+}
+
+/// A mesh of a block, with curves above it that bound nothing: 4 × 1, and the curves through these points.
+fn with_curves(curves: &[(&str, &[[f64; 2]])]) -> String {
+    let mut text = String::from("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n");
+    text += &format!("{}\n1 1 \"bottom\"\n1 2 \"face\"\n2 3 \"low\"\n", curves.len() + 3);
+    curves.iter().enumerate().for_each(|(k, (name, _))| text += &format!("1 {} \"{name}\"\n", k + 10));
+    let block = (0..=8).flat_map(|k| [[0.5 * k as f64, 0.0], [0.5 * k as f64, 1.0]]);
+    let points: Vec<[f64; 2]> = block.chain(curves.iter().flat_map(|(_, points)| points.iter().copied())).collect();
+    text += &format!("$EndPhysicalNames\n$Nodes\n{}\n", points.len());
+    points.iter().enumerate().for_each(|(k, [x, y])| text += &format!("{} {x:?} {y:?} 0\n", k + 1));
+    let mut elements: Vec<String> = Vec::new();
+    for a in (1..=15).step_by(2) {
+        let [b, c, d] = [a + 1, a + 2, a + 3];
+        elements.extend([format!("2 2 3 1 {a} {c} {d}"), format!("2 2 3 1 {a} {d} {b}")]);
+        elements.extend([format!("1 2 1 1 {a} {c}"), format!("1 2 2 1 {b} {d}")]);
+    }
+    let mut next = 19;
+    for (k, (_, points)) in curves.iter().enumerate() {
+        elements.extend((next..next + points.len() - 1).map(|at| format!("1 2 {} 1 {at} {}", k + 10, at + 1)));
+        next += points.len();
+    }
+    text += &format!("$EndNodes\n$Elements\n{}\n", elements.len());
+    elements.iter().enumerate().for_each(|(k, element)| text += &format!("{} {element}\n", k + 1));
+    text + "$EndElements\n"
+}
+
+/// What is drawn without triangles is a rigid tool that a first case has, and that `check` proposes as it can be pasted.
+#[test]
+fn curves_without_triangles_are_proposed_as_rigid_tools() {
+    let roller: Vec<[f64; 2]> =
+        (0..=12).map(|k| (std::f64::consts::PI * f64::from(k) / 12.0).sin_cos()).map(|(y, x)| [2.0 + x, 2.0 - y]).collect();
+    let curves: [(&str, &[[f64; 2]], &str); 2] = [
+        ("die", &[[1.0, 1.02], [2.0, 1.02], [3.0, 1.02]], "line = [[1.0, 1.02], [3.0, 1.02]]"),
+        ("roller", &roller, "circle = { centre = [2.0, 2.0], radius = 1.0 }"),
+    ];
+    for (name, points, shape) in curves {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        std::fs::write(folder.path().join("block.msh"), with_curves(&[(name, points)])).expect("a mesh can be written");
+        let case = new_case(folder.path(), "block.msh");
+        let text = std::fs::read_to_string(&case).expect("a case");
+        let tables = format!("[contact.face-{name}]\nbetween = [\"face\", \"rigid.{name}\"]\n");
+        assert!(text.contains(shape) && text.contains(&tables) && !text.contains("\n[load"), "{text}");
+        let check = || mezha_in(folder.path(), None, &["check", &case.to_string_lossy()]);
+        let (code, output, errors) = check();
+        assert!(code == Some(0) && !output.contains("paste") && !errors.contains("nothing loads"), "{output}{errors}");
+        // Without the tool it is proposed, and heals the case.
+        let (head, rest) = text.split_once("# Curves of the mesh").expect("the tools");
+        let bare =
+            format!("{head}\n{}", &rest[rest.find("[support").expect("a support")..]).replace("pressure = 0.01", "energy = 0.01");
+        std::fs::write(&case, &bare).expect("a case can be written");
+        let (code, output, errors) = check();
+        assert!(code == Some(0) && output.contains("these curves of the mesh bound no body"), "{output}{errors}");
+        let pasted: Vec<&str> =
+            output.lines().skip_while(|line| !line.starts_with('[')).filter(|line| !line.starts_with("figure")).collect();
+        std::fs::write(&case, format!("{bare}\n{}\n", pasted.join("\n"))).expect("a case can be written");
+        let (code, output, errors) = check();
+        assert!(code == Some(0) && !output.contains("paste") && !errors.contains("nothing loads"), "{output}{errors}");
+        let wrong = ["check", &case.to_string_lossy(), "--set", &format!("support.bottom.on=\"{name}\"")].map(String::from);
+        let (code, _, errors) = mezha(None, &wrong);
+        assert!(code == Some(2) && errors.contains(&format!("\"{name}\" bounds no body")), "{errors}");
+    }
+}
+
+/// A pin that shrinks in its hole: contact opens all around, which `check` and the run say, with a hold that heals the case.
+#[test]
+fn a_cooled_pin_that_nothing_holds_is_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let case = r#"
+mesh = { file = "mesh.msh", order = 2, refine = 1 }
+body.plate = { young = 210e3, poisson = 0.3 }
+body.pin = { young = 210e3, poisson = 0.3, expansion = 1e-5, temperature = -100.0 }
+geometry.bore = { curves = ["plate.in", "pin.out"], circle = { centre = [0, 0], radius = 1.0 } }
+contact.seam = { between = ["plate.in", "pin.out"] }
+support.frame = { on = "plate.out", ux = 0.0, uy = 0.0 }
+support.turn = { body = "pin", mean = true, angle = 0.0 }
+"#;
+    let file = write_scene(folder.path(), include_str!("meshes/pin_in_plate.msh"), case);
+    let check = |sets: &[&str]| {
+        let words: Vec<String> = ["check".to_owned(), file.display().to_string()]
+            .into_iter()
+            .chain(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]))
+            .collect();
+        mezha_in(folder.path(), None, &words.iter().map(String::as_str).collect::<Vec<_>>())
+    };
+    let words = "body pin shrinks, as it is cooler than what it touches";
+    let (code, output, errors) = check(&[]);
+    assert!(code == Some(3) && errors.contains(words), "{output}{errors}");
+    let run = Run::file(&file).ended();
+    assert!(run.code != Some(0) && run.value("/reason").to_string().contains(words), "{}", run.said());
+    assert!(errors.contains("write ux = 0.0 and uy = 0.0 into [support.turn], too"), "{errors}");
+    let held = ["support.turn.ux=0.0", "support.turn.uy=0.0"];
+    assert_eq!(check(&held).0, Some(0));
+    Run::file(&file).set("support.turn.ux", 0.0).set("support.turn.uy", 0.0).converged();
+    // What presses, heats or loads the pin is another scene.
+    for set in [
+        "body.pin.temperature=100.0",
+        "body.plate={ young = 210e3, poisson = 0.3, expansion = 2e-5, temperature = -100.0 }",
+        "contact.seam.gap=-0.01",
+    ] {
+        let (code, output, errors) = check(&[set]);
+        assert!(code == Some(0) && !errors.contains("shrinks"), "{set}: {output}{errors}");
+    }
 }
 
 /// Without a support the first thing to mend is the load: a hold would carry it unseen.

@@ -184,8 +184,11 @@ fn hold_rigidly<'a>(
             let moves = |&k: &usize| set.mode(k, x).dot(&hold.direction).abs() > SAME * set.mode(k, x).norm();
             if let Some(k) = set.free().find(moves) {
                 return Err(SupportError(format!(
-                    "{} holds a node at ({}, {}) that {} is to move: prescribe its {}, or leave the support out there",
-                    hold.by, x.x, x.y, set.key, MOTIONS[k]
+                    "{} holds a node at {} that {} is to move: prescribe its {}, or leave the support out there",
+                    hold.by,
+                    Coordinates(x),
+                    set.key,
+                    MOTIONS[k]
                 )));
             }
         }

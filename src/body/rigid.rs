@@ -41,6 +41,11 @@ pub struct RigidSet {
 }
 
 impl RigidSet {
+    /// Whether it is held where it is.
+    pub fn stays(&self) -> bool {
+        self.prescribed == [Some(0.0); 3]
+    }
+
     /// The set where it can move along the axis of revolution alone.
     pub fn along_axis(self) -> Self {
         let [_, along, _] = self.prescribed;

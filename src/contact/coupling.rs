@@ -13,7 +13,7 @@ use super::pair::Quadrature;
 use super::quadrature::quadrature_points;
 use super::side::Side;
 use super::trace::trace;
-use crate::geometry::{Curve, Formula, Point, gauss_points};
+use crate::geometry::{Coordinates, Curve, Formula, Point, gauss_points};
 use crate::mesh::{BoundaryEdge, EdgeNode};
 
 /// One entry of the coupling: multiplier `i`, node `j`, and `± ∫ψ_i N_j n ds` (length), + for body 1, - for body 2. In bodies of
@@ -103,8 +103,8 @@ impl Distance<'_> {
                 let nearer = |a: &(f64, f64), b: &(f64, f64)| a.1.total_cmp(&b.1).then(a.0.abs().total_cmp(&b.0.abs()));
                 hits.min_by(nearer).map(|(distance, _)| distance).ok_or_else(|| {
                     format!(
-                        "the normal of the contact boundary at ({}, {}) misses the boundary of a body; give `gap` as a number or a formula",
-                        x.x, x.y
+                        "the normal of the contact boundary at {} misses the boundary of a body; give `gap` as a number or a formula",
+                        Coordinates(x)
                     )
                 })
             }

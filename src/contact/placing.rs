@@ -6,7 +6,7 @@ use super::pair::{Configuration, CurveChoice, Pair, SegmentRule};
 use super::side::Side;
 use super::smooth_side::{Displacement, SmoothSide};
 use crate::contact::fit::{Meeting, PointContact, stray};
-use crate::geometry::{Curve, Point};
+use crate::geometry::{Coordinates, Curve, Point};
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering};
 
 /// Why no contact boundary can be placed: the key of the case, and words.
@@ -173,10 +173,10 @@ fn check_cover(mesh: &MacroMesh, pair: &Pair, sides: [&[u32]; 2], boundary: &Con
         let mut reached = first;
         for [from, to] in parts.iter().copied().filter(|[_, to]| *to > first) {
             if from.min(last) > reached + least {
-                let [a, b] = [reached, from].map(|t| boundary.point(t));
+                let [a, b] = [reached, from].map(|t| Coordinates(boundary.point(t)));
                 return Err(format!(
-                    "\"{}\" has a hole between ({}, {}) and ({}, {}); give each part a name and a contact of its own",
-                    pair.between[side], a.x, a.y, b.x, b.y
+                    "\"{}\" has a hole between {a} and {b}; give each part a name and a contact of its own",
+                    pair.between[side]
                 ));
             }
             reached = reached.max(to);

@@ -7,9 +7,12 @@ use std::fmt::{self, Display, Formatter};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounded(pub f64);
 
-/// A place as `(x, y)`, both to six digits.
+/// A place as `(x, y)`, both to six digits; a coordinate that is rounding beside the other one is 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates(pub Point);
+
+/// Parts of a place below this share of the other one are rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// Longest text that is quoted in full.
 const LONGEST: usize = 60;
@@ -45,7 +48,9 @@ impl Display for Rounded {
 
 impl Display for Coordinates {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        write!(f, "({}, {})", Rounded(self.0.x), Rounded(self.0.y))
+        let size = self.0.amax();
+        let [x, y] = [self.0.x, self.0.y].map(|part| Rounded(if part.abs() < ROUNDING * size { 0.0 } else { part }));
+        write!(f, "({x}, {y})")
     }
 }
 
@@ -65,6 +70,9 @@ mod tests {
         assert_eq!([2.0, -0.0, 0.25000000000102973, 1e6].map(told), ["2", "0", "0.25", "1000000"]);
         assert_eq!([1e308, -1.0 / 3e8, 1e-5].map(told), ["1e308", "-3.33333e-9", "1e-5"]);
         assert_eq!([f64::NAN, f64::INFINITY].map(told), ["NaN", "inf"]);
-        assert_eq!(Coordinates(Point::new(1.0 / 3.0, -1e300)).to_string(), "(0.333333, -1e300)");
+        assert_eq!(Coordinates(Point::new(1.0 / 3.0, -1e300)).to_string(), "(0, -1e300)");
+        let told = |x: f64, y: f64| Coordinates(Point::new(x, y)).to_string();
+        assert_eq!(told(1.0 / 3.0, 1.22465e-16), "(0.333333, 0)", "a point of a circle");
+        assert_eq!([told(1e-9, -2.0), told(0.0, -0.0)], ["(1e-9, -2)", "(0, 0)"]);
     }
 }

@@ -3,6 +3,7 @@
 use super::MeshError;
 use super::edge_shape::EdgeShape;
 use super::file_place::FilePlace;
+use super::loose_curve::LooseCurve;
 use super::raw_mesh::{RawMesh, RawTriangle};
 use super::spot::NamedPoint;
 use crate::element::Plane;
@@ -117,6 +118,8 @@ pub struct MacroMesh {
     pub boundaries: Vec<Boundary>,
     /// Physical curves between parts of one body.
     pub interfaces: Vec<Boundary>,
+    /// Physical curves that bound no body: they are left aside.
+    pub loose: Vec<LooseCurve>,
     /// Vertices at points that the case names.
     pub points: Vec<NamedPoint>,
     /// Whether midside nodes of the file have bent edges.
@@ -134,6 +137,7 @@ impl MacroMesh {
             file: file.to_path_buf(),
             ratios: vec![None; raw.vertices.len()],
             vertices: raw.vertices,
+            loose: raw.loose,
             triangles: Vec::with_capacity(raw.triangles.len()),
             ..Self::default()
         };
@@ -249,23 +253,21 @@ impl MacroMesh {
         place: FilePlace,
         placed: &mut HashSet<(usize, u32)>,
     ) -> Result<(), MeshError> {
-        let refused = |what: &str, remedy: &str| {
+        let refused = |what: &str| {
             let curve = Quote(&name);
-            let words = format!(
-                "a line of the physical curve \"{curve}\" {what}; physical curves must bound bodies, or parts of them{remedy}"
-            );
+            let words =
+                format!("a line of the physical curve \"{curve}\" {what}; physical curves must bound bodies, or parts of them");
             self.syntax(place, words)
         };
-        let tool = "the curve of a rigid tool needs no mesh: leave it out, and write [rigid.NAME] with line = [[x, y], ...] or circle into the case";
-        let Some(edge) = edge else { return Err(refused("is not an edge of a triangle", &format!("; {tool}"))) };
+        let Some(edge) = edge else { return Err(refused("is not an edge of a triangle, though others of it are, or its nodes")) };
         let parts = self.edges[edge as usize].triangles.map(|beside| beside.map(|k| self.triangles[k as usize].part));
         if parts[0] == parts[1] {
-            return Err(refused("lies inside a body", ""));
+            return Err(refused("lies inside a body"));
         }
         let (same_kind, other_kind) =
             if parts[1].is_none() { (&self.boundaries, &self.interfaces) } else { (&self.interfaces, &self.boundaries) };
         if other_kind.iter().any(|curve| curve.name == name) {
-            return Err(refused("lies between parts of a body while others bound one: name them apart", ""));
+            return Err(refused("lies between parts of a body while others bound one: name them apart"));
         }
         let at = same_kind.iter().position(|curve| curve.name == name);
         let curves = if parts[1].is_none() { &mut self.boundaries } else { &mut self.interfaces };

@@ -1,8 +1,9 @@
 //! What a mesh file says, before it is checked and connected.
 
 use super::file_place::FilePlace;
+use super::loose_curve::LooseCurve;
 use crate::geometry::Point;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// What a mesh file says, before it is checked, each with its place in the file.
 #[derive(Default)]
@@ -12,6 +13,8 @@ pub(super) struct RawMesh {
     /// Names of physical surfaces that triangles have together.
     pub names: Vec<Vec<String>>,
     pub lines: Vec<(String, [u32; 2], FilePlace)>,
+    /// Physical curves that bound no body, once the points that no triangle uses are left out.
+    pub loose: Vec<LooseCurve>,
     /// Midside nodes of second-order elements, with the ends of their sides, lower first; one of an inner side comes twice.
     pub midsides: Vec<([u32; 2], Point)>,
     /// Names of bodies, by the physical surfaces that are parts of them; other surfaces are bodies of their own.
@@ -37,10 +40,11 @@ impl RawMesh {
         }) as u32
     }
 
-    /// Leaves out the points of the geometry that no triangle uses (centres of circles, say).
+    /// Leaves out the points of the geometry that no triangle uses (centres of circles, say), and the curves that have such alone.
     pub fn drop_loose_vertices(&mut self) {
         let mut used = vec![false; self.vertices.len()];
         self.triangles.iter().flat_map(|triangle| triangle.corners).for_each(|corner| used[corner as usize] = true);
+        self.leave_out_curves(&used);
         let mut new = vec![u32::MAX; self.vertices.len()];
         let mut count = 0;
         for (vertex, used) in used.iter().enumerate() {
@@ -55,5 +59,19 @@ impl RawMesh {
         let ends = self.lines.iter_mut().flat_map(|(_, ends, _)| ends).chain(self.midsides.iter_mut().flat_map(|(ends, _)| ends));
         ends.chain(self.triangles.iter_mut().flat_map(|triangle| &mut triangle.corners))
             .for_each(|end| *end = new[*end as usize]);
+    }
+
+    /// Puts the curves aside no line of which lies between nodes that are `used`.
+    fn leave_out_curves(&mut self, used: &[bool]) {
+        let joins_triangles = |ends: &[u32; 2]| ends.iter().all(|&end| used[end as usize]);
+        let bound: HashSet<String> =
+            self.lines.iter().filter(|(_, ends, _)| joins_triangles(ends)).map(|(name, ..)| name.clone()).collect();
+        for (name, ends, _) in self.lines.extract_if(.., |(name, ..)| !bound.contains(name)) {
+            let line = ends.map(|end| self.vertices[end as usize]);
+            match self.loose.iter_mut().find(|curve| curve.name == name) {
+                Some(curve) => curve.lines.push(line),
+                None => self.loose.push(LooseCurve { name, lines: vec![line] }),
+            }
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! What can go wrong on the way to the disk.
 
-use std::io;
+use std::fs;
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 /// A result that could not be written.
@@ -47,7 +48,7 @@ pub enum OutputError {
         source: Box<OutputError>,
     },
     /// The operating system refused.
-    #[error("cannot {action} `{}`: {source}", path.display())]
+    #[error("cannot {action} `{}`: {source}{}", path.display(), room(source))]
     Io {
         /// What was tried, in the infinitive.
         action: &'static str,
@@ -66,7 +67,26 @@ pub enum OutputError {
     },
 }
 
+/// What helps where there is no room.
+fn room(refusal: &io::Error) -> &'static str {
+    match refusal.kind() {
+        ErrorKind::FileTooLarge | ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+            "; make room there (ulimit -f, quota, disk), or choose another folder with --out"
+        }
+        _ => "",
+    }
+}
+
 impl OutputError {
+    /// The same for a file of a result that could not be written: what there is of it goes, and its room is free.
+    pub(crate) fn unwritten(path: &Path) -> impl FnOnce(io::Error) -> OutputError {
+        let (path, told) = (path.to_path_buf(), Self::io("write", path));
+        move |source| {
+            let _ = fs::remove_file(path);
+            told(source)
+        }
+    }
+
     /// Turns an error of the operating system into ours; for `map_err`.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> OutputError {
         let path = path.to_path_buf();

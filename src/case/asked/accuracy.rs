@@ -62,6 +62,9 @@ declare! {
 /// A number at the root of a case under this name stands for a table with that number under this key.
 pub const SHORT: [(&str, &str); 1] = [("accuracy", "energy")];
 
+/// Words for goals of contacts where there are none.
+pub const NO_CONTACT: &str = "there is no contact in this case";
+
 /// What an empty `[accuracy]` may hold.
 const SOME_GOAL: &str = "asks for nothing; give energy = 1e-4, say, or force, pressure, peak, ends, displacement, stress";
 
@@ -102,7 +105,7 @@ pub fn read_accuracy(root: &Section, contacts: &[Pair], probes: &[Probe]) -> Opt
     let [displacement, stress] = [DISPLACEMENT, STRESS].map(|key| section.optional(key));
     let (most_unknowns, most_seconds) = (section.optional(MAX_UNKNOWNS), section.optional(MAX_SECONDS));
     if root.names_below("contact").next().is_none() {
-        section.refuse(&GOAL_KEYS, "there is no contact in this case; leave it out, or ask for energy");
+        section.refuse(&GOAL_KEYS, &format!("{NO_CONTACT}; leave it out, or ask for energy"));
     }
     if section.has("ends") && !contacts.is_empty() && contacts.iter().all(|pair| pair.law == Law::Bilateral) {
         section.problem(&["ends"], no_ends("every contact is"));

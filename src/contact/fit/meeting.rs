@@ -7,7 +7,7 @@ use crate::contact::fit::node_window::NodeWindow;
 use crate::contact::fit::own_curve::OwnCurve;
 use crate::contact::pair::{GapChoice, Pair};
 use crate::contact::smooth_side::SmoothSide;
-use crate::geometry::{Curve, Point};
+use crate::geometry::{Coordinates, Curve, Point};
 use std::ops::Range;
 
 /// Before anything is solved, nodes closer to the other body than this share of the boundary's length count as touching.
@@ -184,16 +184,15 @@ fn why_apart(sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> String {
         && let Some(x) = find_node(sides, is_undefined)
     {
         return format!(
-            "gap = {} is no number at ({:.6}, {:.6}), and small over no length elsewhere; correct the formula: it needs a value wherever \"{first}\" and \"{second}\" may touch",
+            "gap = {} is no number at {}, and small over no length elsewhere; correct the formula: it needs a value wherever \"{first}\" and \"{second}\" may touch",
             formula.text(),
-            x.x,
-            x.y
+            Coordinates(x)
         );
     }
     if let Some(x) = find_node(sides, |side, node, others| is_near(side, node, others, pair, WIDENINGS[0] * MEETS_AT_REST)) {
         return format!(
-            "curve = \"fit\", but \"{first}\" and \"{second}\" come near each other at one node only, at ({}, {}): a corner, or edges too long; refine the mesh there",
-            x.x, x.y
+            "curve = \"fit\", but \"{first}\" and \"{second}\" come near each other at one node only, at {}: a corner, or edges too long; refine the mesh there",
+            Coordinates(x)
         );
     }
     let remedy = match pair.gap {

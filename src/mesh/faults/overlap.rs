@@ -1,6 +1,6 @@
 //! Triangles that overlap their own body.
 
-use crate::geometry::{Point, bounds, cross};
+use crate::geometry::{Coordinates, Point, bounds, cross};
 use crate::mesh::MeshError;
 use crate::mesh::macro_mesh::MacroMesh;
 
@@ -26,8 +26,8 @@ impl MacroMesh {
             if grids.near(&corners).filter(alike).any(|other| overlap(corners, self.corners(other))) {
                 let (x, body) = (corners.iter().sum::<Point>() / 3.0, &self.bodies[self.triangles[triangle].body as usize]);
                 return Err(self.unusable(format!(
-                    "triangles of body \"{body}\" overlap near ({}, {}): the same place would count twice; mesh the scene again",
-                    x.x, x.y
+                    "triangles of body \"{body}\" overlap near {}: the same place would count twice; mesh the scene again",
+                    Coordinates(x)
                 )));
             }
         }

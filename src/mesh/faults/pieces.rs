@@ -1,6 +1,6 @@
 //! Pieces of a body: triangles that hang together by edges.
 
-use crate::geometry::{Disc, Point, overlapping_discs};
+use crate::geometry::{Coordinates, Disc, Point, overlapping_discs};
 use crate::mesh::MeshError;
 use crate::mesh::macro_mesh::{BodyPiece, MacroMesh};
 
@@ -40,8 +40,9 @@ impl MacroMesh {
     fn check_hinges(&self) -> Result<(), MeshError> {
         let Some((x, _, triangle)) = self.shared_vertex(|triangle| triangle.piece) else { return Ok(()) };
         Err(self.unusable(format!(
-            "two pieces of body \"{}\" hang together by nothing but the node at ({}, {}); a single node transmits no force in the plane: join them along an edge, or make them bodies with points of their own",
-            self.bodies[triangle.body as usize], x.x, x.y
+            "two pieces of body \"{}\" hang together by nothing but the node at {}; a single node transmits no force in the plane: join them along an edge, or make them bodies with points of their own",
+            self.bodies[triangle.body as usize],
+            Coordinates(x)
         )))
     }
 
@@ -80,8 +81,11 @@ impl MacroMesh {
             if let Some((first, second, x)) = touching {
                 let names = [first, second].map(|part| &self.parts[part as usize].name);
                 return Err(self.unusable(format!(
-                    "parts \"{}\" and \"{}\" of body \"{}\" touch near ({}, {}) and share no nodes there, so nothing joins them; give them the same lines (`Coherence;` in Gmsh), or make them bodies with a contact between",
-                    names[0], names[1], self.bodies[body], x.x, x.y
+                    "parts \"{}\" and \"{}\" of body \"{}\" touch near {} and share no nodes there, so nothing joins them; give them the same lines (`Coherence;` in Gmsh), or make them bodies with a contact between",
+                    names[0],
+                    names[1],
+                    self.bodies[body],
+                    Coordinates(x)
                 )));
             }
         }

@@ -52,6 +52,7 @@ impl MacroMesh {
             parts: self.parts.iter().filter(|part| !is_tool(&part.name)).cloned().collect(),
             pieces: self.pieces.iter().filter(|piece| !is_tool(&self.bodies[piece.body])).cloned().collect(),
             points: Vec::new(),
+            loose: self.loose.clone(),
             has_midsides: self.has_midsides,
             plane: self.plane,
             file: self.file.clone(),

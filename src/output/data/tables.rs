@@ -179,7 +179,7 @@ fn write_table(path: &Path, rows: impl FnOnce(&mut BufWriter<File>) -> io::Resul
         let mut out = BufWriter::new(file);
         rows(&mut out).and_then(|()| out.flush())
     };
-    File::create(path).and_then(write).map_err(OutputError::io("write", path))
+    File::create(path).and_then(write).map_err(OutputError::unwritten(path))
 }
 
 /// A number as a cell of a table; nothing stands there if it is not known, or not finite.

@@ -200,7 +200,7 @@ fn write_file(path: &Path, kind: &str, body: impl FnOnce(&mut BufWriter<File>) -
         writeln!(out, "</{kind}>\n</VTKFile>")?;
         out.flush()
     };
-    write().map_err(OutputError::io("write", path))
+    write().map_err(OutputError::unwritten(path))
 }
 
 /// The opening tag of an array, up to its last attribute. One component goes unsaid: meshio would make columns of scalars.

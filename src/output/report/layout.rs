@@ -14,7 +14,7 @@ use crate::output::markup::{document, escape, section, verbatim};
 /// The operating system refuses.
 pub fn write_report(folder: &Path, page: &ReportPage) -> Result<(), OutputError> {
     let path = folder.join("report.html");
-    fs::write(&path, html(folder, page)).map_err(OutputError::io("write", &path))
+    fs::write(&path, html(folder, page)).map_err(OutputError::unwritten(&path))
 }
 
 /// The text of the page.

@@ -272,7 +272,7 @@ impl Summary {
         serde_json::to_string_pretty(self)
             .map_err(std::io::Error::from)
             .and_then(|text| fs::write(path, text + "\n"))
-            .map_err(OutputError::io("write", path))
+            .map_err(OutputError::unwritten(path))
     }
 
     /// Reads a `summary.json` back; numbers that are null inside a vector become NaN.

@@ -1,7 +1,7 @@
 //! `mezha check`.
 
 use crate::body::{Body, BodyPart, Material};
-use crate::case::{Case, Matched, read_text};
+use crate::case::{Case, CaseError, Matched, NO_CONTACT, Tool, read_text};
 use crate::discretisation::Scene;
 use crate::element::{Heat, Order, Plane};
 use crate::mesh::MacroMesh;
@@ -9,12 +9,14 @@ use crate::output::summary::lines_alike;
 use crate::procedure::Procedure;
 use crate::run::checking::acting_lines::acting_lines;
 use crate::run::checking::proposals::{proposed_contacts, proposed_supports};
-use crate::run::checking::pulled::pulled_off;
+use crate::run::checking::tools::proposed_tools;
 use crate::run::outcome::RunError;
 use crate::run::reading::checks::check_pressures;
 use crate::run::reading::{origin, scene};
 use crate::run::telling::report::contact_lines;
 use crate::run::verdict::warnings::before::{far_turns, idle, slits};
+use crate::run::verdict::warnings::pulled::pulled_off;
+use crate::run::verdict::warnings::shrinking::ShrunkBody;
 use crate::run::words::units;
 use crate::run::{accuracy, memory};
 use std::path::Path;
@@ -32,7 +34,7 @@ pub struct Checked {
     /// Words for a body that can move though contact is closed everywhere, or that its loads drive off all its contacts; nothing if
     /// all are held.
     pub not_held: Option<String>,
-    /// Contacts and supports that may be missing, as TOML to paste, with words before them; empty if there is nothing to propose.
+    /// Contacts, rigid tools and supports that may be missing, as TOML to paste, with words before them; empty if there is nothing to propose.
     pub proposals: String,
 }
 
@@ -42,9 +44,17 @@ pub struct Checked {
 /// [`RunError::Input`] with everything that is wrong.
 pub fn check_file(file: &Path, overrides: &[String]) -> Result<Checked, RunError> {
     let text = read_text(file, "case").map_err(|error| RunError::Input(error.to_string()))?;
-    let case = Case::parse(&text, file, overrides)
-        .map_err(|error| RunError::Input(scene::told_with_names(&error, Case::draft(&text, file, overrides))))?;
+    let case = Case::parse(&text, file, overrides).map_err(|error| refused(&error, Case::draft(&text, file, overrides)))?;
     check(&case)
+}
+
+/// Words for a case that cannot be read whole, with the contacts that it may want where it lacks any for what it asks for.
+fn refused(error: &CaseError, draft: Option<Case>) -> RunError {
+    let words = scene::told_with_names(error, draft.clone());
+    let draft = draft.filter(|_| words.contains(NO_CONTACT));
+    let mesh = |case: &Case| scene::read_bare_mesh(case, &scene::read_mesh_file(case).ok()?);
+    let proposed = draft.and_then(|case| Some(proposals(&case, &mesh(&case)?, false))).filter(|text| !text.is_empty());
+    RunError::Input(words + &proposed.map_or(String::new(), |text| format!("\n\n{text}")))
 }
 
 /// Reads everything, solves nothing on the mesh of the case, and says what would be solved, and whether contact would hold all bodies:
@@ -71,6 +81,7 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     let words = format!("{triangles} {order} triangles after {refine} refinements, {unknowns} unknowns of displacement");
     let mut lines = vec![format!("{}: {}", case.name, case.title), format!("mesh: {whole} macro triangles, {words}")];
     lines.extend(case.matched.iter().map(matched));
+    lines.extend(scene.mesh.loose.iter().map(|curve| format!("curve {}: bounds no body, and is left aside", curve.name)));
     lines.extend(body_lines(case));
     lines.extend(contact_lines(&at_rest.contacts, &units(case)));
     lines.extend(acting_lines(case, &scene, &at_rest.numbering));
@@ -91,7 +102,10 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
         None => match at_rest.not_held(&scene)? {
             // What a hold would carry unseen is told before it.
             Some(words) => Some(pulled_off(&scene).map_or(words.clone(), |pulled| format!("{pulled}; and {words}"))),
-            None => driven_off(case, &scene),
+            None => {
+                let shrunk = ShrunkBody::of(&scene, &at_rest.numbering).map(|body| body.words());
+                shrunk.or_else(|| driven_off(case, &scene))
+            }
         }
         .map(last),
         before => before,
@@ -112,7 +126,7 @@ fn matched(Matched { place, kind, names }: &Matched) -> String {
     format!("{place}: {} {kind}: {first}{more}", names.len())
 }
 
-/// A line for each part of a body; of many one for each material.
+/// A line for each part of a body, and for each rigid tool; of many one for each material.
 fn body_lines(case: &Case) -> Vec<String> {
     let stress = units(case);
     let stress = stress.stress().after();
@@ -131,16 +145,20 @@ fn body_lines(case: &Case) -> Vec<String> {
         (format!("E = {young}{stress}, ν = {poisson}{plane}{}", heat.unwrap_or_default()), of)
     };
     let all = case.bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (body, part)));
-    lines_alike(["body", "bodies or parts"], all.map(words)).into_iter().map(|(_, line)| line).collect()
+    let tool = |tool: &Tool| (if tool.motion.stays() { "rigid, stays" } else { "rigid" }.to_owned(), tool.key().to_owned());
+    let all = all.map(words).chain(case.tools.iter().map(tool));
+    lines_alike(["body", "bodies or parts"], all).into_iter().map(|(_, line)| line).collect()
 }
 
 /// What may be missing, as TOML to paste.
 fn proposals(case: &Case, mesh: &MacroMesh, is_loose: bool) -> String {
     let contacts = proposed_contacts(case, mesh);
     let supports = if is_loose { proposed_supports(case) } else { Vec::new() };
+    let tools = proposed_tools(mesh, &case.tools, &case.contacts).into_iter().map(|tool| tool.text).collect();
     let mut text = String::new();
     for (tables, words) in [
         (contacts, "these boundaries lie close and are in no contact; if they may touch, paste this into the case:"),
+        (tools, "these curves of the mesh bound no body; if they are rigid tools, paste this into the case:"),
         (supports, "supports like these would hold the bodies; paste into the case what you mean:"),
     ] {
         if !tables.is_empty() {

@@ -343,7 +343,11 @@ fn driven_words(motion: &RigidSet, thickness: f64, units: &Units) -> String {
     let moved = ["ux", "uy", "angle"].iter().zip(motion.prescribed);
     let moved = moved.filter_map(|(key, way)| Some(format!("{key} = {}", short(way?))));
     let all: Vec<String> = force.into_iter().chain(moment).chain(moved).collect();
-    if all.is_empty() { "free".into() } else { all.join(", ") }
+    match all[..] {
+        [] => "free".into(),
+        _ if motion.stays() => "stays".into(),
+        _ => all.join(", "),
+    }
 }
 
 fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<DrawnLoad> {

@@ -8,7 +8,8 @@ mod check;
 mod drawing;
 mod first_case;
 mod info;
-mod pulled;
+mod node_circle;
+mod tools;
 
 pub(crate) mod proposals;
 

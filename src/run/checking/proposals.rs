@@ -27,6 +27,9 @@ const PARTS: usize = 8;
 /// Those that are nearer than this share of it are drawn touching.
 const TOUCHING: f64 = 1e-6;
 
+/// Coordinates below this share of a size are 0.
+const ROUNDING: f64 = 1e-9;
+
 /// A name as a TOML string.
 pub(crate) fn quoted(name: &str) -> String {
     Value::String(name.into()).to_string()
@@ -84,6 +87,11 @@ fn distance_words(pair: &ClosePair) -> String {
 /// A length with three digits.
 pub(crate) fn short(value: f64) -> String {
     format!("{value:.2e}").parse::<f64>().unwrap_or(value).to_string()
+}
+
+/// A coordinate with ten digits; one that is rounding beside a size of what it belongs to is 0.
+pub(crate) fn digits(value: f64, size: f64) -> f64 {
+    if value.abs() < ROUNDING * size { 0.0 } else { format!("{value:.9e}").parse::<f64>().unwrap_or(value) }
 }
 
 /// Contacts that a case may have forgotten: boundaries that lie close, of bodies between which it has none, or elsewhere than those
@@ -239,7 +247,7 @@ fn support_for(
     let place = places.into_iter().find(is_of_one)?;
     let component = ["ux", "uy"][motion.displacement(&extent, place).iamax()];
     let keys = if is_free { "ux = 0.0\nuy = 0.0\n".to_owned() } else { format!("{component} = 0.0\n") };
-    let [x, y] = [place.x, place.y].map(|x| format!("{x:.9e}").parse::<f64>().unwrap_or(x));
+    let [x, y] = [place.x, place.y].map(|x| digits(x, extent.radius));
     let fresh = names.fresh(&format!("{name}-point"));
     Some(Proposed::Point(format!("[support.{fresh}]\nat = [{x:?}, {y:?}]\nbody = {}\n{keys}", quoted(name))))
 }

@@ -53,8 +53,10 @@ pub fn check_means(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
         }
         if let Some((key, held, x)) = resisting(case, mesh, hold) {
             return error(format!(
-                "{} of \"{}\" is held at ({}, {}) by {key}, too; leave one of them out",
-                held.key, hold.body, x.x, x.y
+                "{} of \"{}\" is held at {} by {key}, too; leave one of them out",
+                held.key,
+                hold.body,
+                Coordinates(x)
             ));
         }
         let spots = case.supports.iter().filter_map(|support| support.at.as_ref());

@@ -69,6 +69,10 @@ impl Names<'_> {
             let words = "lies between two parts of a body, where nothing can act; only [geometry] may name it";
             return Err(format!("{key}: \"{name}\" {words}"));
         }
+        if self.mesh.loose.iter().any(|curve| curve.name == name) {
+            let words = "bounds no body: none of its lines is an edge of a triangle; leave it out here: if it is a rigid tool, `mezha check` then tells how it is written";
+            return Err(format!("{key}: \"{name}\" {words}"));
+        }
         let known = self.mesh.boundaries.iter().map(|boundary| &boundary.name);
         Err(format!("{key}: no physical curve \"{}\": {}", Quote(name), instead(&self.mesh.file, name, known)))
     }

@@ -9,7 +9,7 @@ use crate::element::{Plane, StressMeasure};
 use crate::mesh::MacroMesh;
 use crate::output::plot::{self, ContactZoom, DeformedFigure, DrawnContact, DrawnForce, Facet};
 use crate::output::summary::{BodySummary, MOST_WITH_FIGURES};
-use crate::output::{ContactPoint, Summary};
+use crate::output::{ContactPoint, OutputError, Summary};
 use crate::recovery::Evaluation;
 use crate::run::outcome::RunError;
 use crate::run::words::title;
@@ -63,7 +63,7 @@ impl Run<'_> {
         if self.session.rank() != 0 {
             return Ok(());
         }
-        self.write_contacts(contacts, &drawn, &shown, &zooms)?;
+        self.write_contacts(contacts, &drawn, &shown, &zooms);
         let forces = drawn_forces(&found.problem.scene, contacts, summary, self.case.thickness);
         let figure = DeformedFigure {
             title: title(self.case),
@@ -78,11 +78,12 @@ impl Run<'_> {
             has_axis: self.case.plane == Plane::Revolution,
             units: &summary.units,
         };
-        figure.write(&folder.join(plot::stress_file(figure.measure)))?;
+        self.spare(figure.write(&folder.join(plot::stress_file(figure.measure))));
         for &measure in &self.case.output.figures {
-            DeformedFigure { measure, peaks: &[], ..figure }.write(&folder.join(plot::stress_file(measure)))?;
+            self.spare(DeformedFigure { measure, peaks: &[], ..figure }.write(&folder.join(plot::stress_file(measure))));
         }
-        adaptation.map_or(Ok(()), |adaptation| write_accuracy(folder, title(self.case), adaptation))
+        self.spare(adaptation.map_or(Ok(()), |adaptation| write_accuracy(folder, title(self.case), adaptation)));
+        Ok(())
     }
 
     /// Draws what is along the contacts that have figures, and the intervals that are drawn of them.
@@ -92,9 +93,9 @@ impl Run<'_> {
         drawn: &[DrawnContact],
         shown: &BTreeSet<&str>,
         zooms: &[(Vec<Facet>, Drawing)],
-    ) -> Result<(), RunError> {
+    ) {
         for (contact, drawn) in contacts.iter().zip(drawn).filter(|(contact, _)| shown.contains(contact.pair.name.as_str())) {
-            plot::write_along(&self.files, &contact.pair.name, drawn)?;
+            plot::write_along(&self.files, &contact.pair.name, drawn).into_iter().for_each(|written| self.spare(written));
         }
         if shown.len() < contacts.len() {
             let words = "those that are trusted least, and those with the largest forces";
@@ -103,9 +104,8 @@ impl Run<'_> {
         let has_axis = self.case.plane == Plane::Revolution;
         for (facets, drawing) in zooms.iter().filter(|(facets, _)| !facets.is_empty()) {
             let name = format!("deformed_{}_{}.svg", contacts[drawing.contact].pair.name, drawing.number);
-            plot::write_zoom(&self.files.join(name), &drawing.zoom, &drawn[drawing.contact], facets, has_axis)?;
+            self.spare(plot::write_zoom(&self.files.join(name), &drawing.zoom, &drawn[drawing.contact], facets, has_axis));
         }
-        Ok(())
     }
 
     /// The intervals that are drawn of the contacts that have figures, in the order of contacts and arc length. Rank 0 chooses.
@@ -190,7 +190,7 @@ pub fn sides(mesh: &MacroMesh, pair: &Pair) -> [String; 2] {
 }
 
 /// Draws what was reached on each mesh, if there are two of them.
-fn write_accuracy(folder: &Path, title: &str, adaptation: &Adaptation) -> Result<(), RunError> {
+fn write_accuracy(folder: &Path, title: &str, adaptation: &Adaptation) -> Result<(), OutputError> {
     let (sequences, count) = (accuracy::sequences(adaptation), adaptation.accuracy.goals.len());
     let title = match sequences.len() {
         few if few < count => format!("{title}; the {few} worst of {count} goals"),
@@ -198,7 +198,7 @@ fn write_accuracy(folder: &Path, title: &str, adaptation: &Adaptation) -> Result
     };
     let is_known = sequences.iter().any(|sequence| sequence.estimates.iter().any(|(_, error)| *error > 0.0));
     if adaptation.meshes.len() >= 2 && is_known {
-        plot::write_accuracy(&folder.join("accuracy.svg"), &title, &sequences)?;
+        return plot::write_accuracy(&folder.join("accuracy.svg"), &title, &sequences);
     }
     Ok(())
 }

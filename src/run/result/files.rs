@@ -15,7 +15,7 @@ use crate::run::telling::report::memory;
 use crate::run::telling::{interruption, progress};
 use crate::run::verdict::expected::expected_values;
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 impl Run<'_> {
     /// Writes what tells the whole result, and prints the verdict. **Collective**
@@ -23,7 +23,10 @@ impl Run<'_> {
         let time_s = self.report.times(&self.stages, self.session);
         let provenance = Some(self.origin.provenance.clone());
         let summary = Summary { time_s, memory_mib: memory(self.session), provenance, ..summary };
-        let finished = interruption::finish(|folder, warnings| self.put_in_place(&summary, mesh, folder, warnings));
+        let mut left_out = Vec::new();
+        let finished =
+            interruption::finish(|folder, warnings| self.put_in_place(&summary, mesh, folder, (warnings, &mut left_out)));
+        left_out.into_iter().for_each(|refusal| self.spare(Err(refusal)));
         let overtaken = self.session.any(matches!(finished, Err(OutputError::Overtaken(_) | OutputError::Elsewhere { .. })));
         let kind = if overtaken { RunError::Overtaken } else { RunError::Failed };
         self.session.agree(finished.map_err(|error| error.to_string())).map_err(kind)?;
@@ -36,13 +39,14 @@ impl Run<'_> {
         Ok(summary.status)
     }
 
-    /// Writes what tells a whole result, with the mesh if it was adapted, and puts the folder in its place.
+    /// Writes what tells a whole result, with the mesh if it was adapted, and puts the folder in its place. What is `left_out` can be
+    /// told when nobody holds the folder any more.
     fn put_in_place(
         &self,
         summary: &Summary,
         mesh: &MacroMesh,
         folder: ResultFolder,
-        warnings: &[String],
+        (warnings, left_out): (&[String], &mut Vec<OutputError>),
     ) -> Result<(), OutputError> {
         progress::write_files();
         self.origin.write(&folder)?;
@@ -51,15 +55,22 @@ impl Run<'_> {
             let (contacts, expected): (Vec<_>, _) = (contacts.collect(), expected_values(self.case, summary));
             let (title, case) = (self.case.title.as_str(), self.origin.case.as_str());
             let page = ReportPage { title, summary, expected: &expected, contacts: &contacts, warnings, case };
-            write_report(folder.temporary(), &page)?;
+            left_out.extend(write_report(folder.temporary(), &page).err());
         }
         if summary.accuracy.as_ref().is_some_and(|steps| !steps.is_empty()) {
             let own = mesh.without_tools(|name| self.case.tool_of(name).is_some());
             let path = folder.path(ADAPTED_MESH);
-            std::fs::write(&path, own.to_gmsh()).map_err(OutputError::io("write", &path))?;
+            left_out.extend(std::fs::write(&path, own.to_gmsh()).map_err(OutputError::unwritten(&path)).err());
         }
         folder.write_summary(summary)?;
         folder.commit()
+    }
+
+    /// A warning for a file that could not be written, and that the result can do without.
+    pub(super) fn spare(&self, written: Result<(), OutputError>) {
+        if let Err(refusal) = written {
+            self.report.warn(&format!("a file is missing in the result: {refusal}"));
+        }
     }
 
     /// Does something on rank 0; what fails there has failed on all. **Collective**
@@ -77,7 +88,11 @@ impl Run<'_> {
         adaptation: Option<&Adaptation>,
     ) -> Result<(), RunError> {
         let folder = &self.files;
-        self.on_first(|| write_tables(folder, &found.problem.contacts, traces))?;
+        if self.session.rank() == 0 {
+            let path = |contact: &Contact| folder.join(format!("contact_{}.csv", contact.pair.name));
+            let tables = found.problem.contacts.iter().zip(traces);
+            tables.for_each(|(contact, points)| self.spare(write_contact(&path(contact), points)));
+        }
         if !self.case.output.fields {
             return Ok(());
         }
@@ -114,10 +129,4 @@ impl Run<'_> {
             self.report.warn(&format!("there are no fields in the result: {refusal}"));
         }
     }
-}
-
-/// Writes the table along each contact boundary.
-fn write_tables(folder: &Path, contacts: &[Contact], traces: &[Vec<ContactPoint>]) -> Result<(), OutputError> {
-    let path = |contact: &Contact| folder.join(format!("contact_{}.csv", contact.pair.name));
-    contacts.iter().zip(traces).try_for_each(|(contact, points)| write_contact(&path(contact), points))
 }

@@ -103,13 +103,14 @@ impl Run<'_> {
         let last = files.join(folder(count));
         let tables = names.iter().map(|name| format!("contact_{name}.csv")).chain([CONTACTS.to_owned()]);
         for table in tables.filter(|table| files.join(table).exists()) {
-            std::fs::copy(files.join(&table), last.join(&table)).map_err(OutputError::io("write", &last.join(&table)))?;
+            let copied = std::fs::copy(files.join(&table), last.join(&table)).map(|_| ());
+            self.spare(copied.map_err(OutputError::unwritten(&last.join(&table))));
         }
         if !self.case.output.fields {
             return Ok(());
         }
         if rows.iter().any(|row| !row.contact.is_empty()) {
-            plot::write_step_figure(&files.join("steps.svg"), title(self.case), rows, &units(self.case))?;
+            self.spare(plot::write_step_figure(&files.join("steps.svg"), title(self.case), rows, &units(self.case)));
         }
         let fields = if self.session.size() == 1 { "fields.vtu" } else { "fields.pvtu" };
         write_all(files, "fields.pvd", fields, count)?;

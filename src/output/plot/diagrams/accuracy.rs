@@ -137,6 +137,7 @@ mod tests {
             assert!(text.contains(words), "{words}");
         }
         assert!(!text.contains("NaN") && text.ends_with("</svg>\n"));
+        assert_eq!(text.matches("<title>").count(), 8, "a value under the pointer for each mesh and goal");
         let thin = text.lines().filter(|line| line.contains("<path") && line.contains("stroke-width=\"7\"")).count();
         assert_eq!(thin, 2 * 2, "a line for each asked value, and its sample");
     }

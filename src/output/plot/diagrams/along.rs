@@ -62,9 +62,9 @@ struct DrawnCurve {
 ///
 /// # Errors
 /// No point has a finite value of one of them; the operating system refuses.
-pub fn write_along(folder: &Path, name: &str, contact: &DrawnContact) -> Result<(), OutputError> {
-    let figures = figures(contact.bodies, contact.units);
-    figures.iter().try_for_each(|figure| figure.write(&folder.join(format!("{}_{name}.svg", figure.file)), contact))
+pub fn write_along(folder: &Path, name: &str, contact: &DrawnContact) -> [Result<(), OutputError>; 3] {
+    let write = |figure: AlongFigure| figure.write(&folder.join(format!("{}_{name}.svg", figure.file)), contact);
+    figures(contact.bodies, contact.units).map(write)
 }
 
 /// The figures of a contact between two bodies.
@@ -203,8 +203,8 @@ mod tests {
             is_deformed: false,
             units: Default::default(),
         };
-        write_along(folder.path(), "seam", &contact)
-            .map(|()| std::fs::read_to_string(folder.path().join(format!("{file}_seam.svg"))).unwrap())
+        let written: Result<(), OutputError> = write_along(folder.path(), "seam", &contact).into_iter().collect();
+        written.map(|()| std::fs::read_to_string(folder.path().join(format!("{file}_seam.svg"))).unwrap())
     }
 
     #[test]
@@ -229,7 +229,7 @@ mod tests {
         let units = Units::new(Some("mm"), Some("N"), false);
         let (points, bodies) = (stepped(2.0), ["<lower>", "upper"]);
         let contact = DrawnContact { title: "bars", bodies, points: &points, is_deformed: false, units: &units };
-        write_along(folder.path(), "seam", &contact).unwrap();
+        write_along(folder.path(), "seam", &contact).into_iter().for_each(Result::unwrap);
         let figure = std::fs::read_to_string(folder.path().join("pressure_seam.svg")).unwrap();
         assert_eq!(figure.matches(" data-x=\"0 2 mm\" data-y=\"-0.1 2.1 MPa\">").count(), 1, "{figure}");
         let names = ["−σ of upper", "−σ of &lt;lower&gt;", "contact pressure λ"];

@@ -1,6 +1,6 @@
 //! Points joined to lines between two axes.
 
-use crate::output::plot::drawing::{Axis, Canvas, Chart, Frame, GREY, Paint, draw_mark, style_colour};
+use crate::output::plot::drawing::{Axis, Canvas, Chart, Frame, GREY, Paint, draw_mark, number_text, style_colour};
 
 /// Lines between two axes.
 #[derive(Clone, Debug, Default)]
@@ -87,7 +87,15 @@ impl DiagramLine {
         let bars = self.marks.iter().filter(|mark| mark.reach[0] < mark.reach[1]);
         canvas.lines(Paint::line(style_colour(self.style), 1.0), bars.map(|mark| mark.reach.map(|y| chart.place([mark.x, y]))));
         canvas.line(paint, places());
-        self.marks.iter().zip(places()).for_each(|(mark, place)| draw_mark(canvas, place, self.style, mark.hollow));
+        for (mark, place) in self.marks.iter().zip(places()) {
+            canvas.told(&self.words(mark), |canvas| draw_mark(canvas, place, self.style, mark.hollow));
+        }
+    }
+
+    /// The values of a point.
+    fn words(&self, mark: &Mark) -> String {
+        let name = if self.name.is_empty() { String::new() } else { format!("{}: ", self.name) };
+        format!("{name}{} at {}", number_text(mark.y), number_text(mark.x))
     }
 }
 

@@ -59,8 +59,9 @@ mod tests {
     #[test]
     fn every_line_bears_its_name() {
         let text = named_diagrams(&[diagram(&[1e-3; 9]), diagram(&[1e-5])]).unwrap();
-        // A rim lies below each.
-        assert_eq!(text.matches("line &lt;").count(), 2 * 10);
+        let count = |tag: &str| text.lines().filter(|line| line.contains(tag) && line.contains("line &lt;")).count();
+        // A rim lies below each, and each mark tells it under the pointer.
+        assert_eq!([count("<text"), count("<title>")], [2 * 10; 2]);
     }
 
     #[test]

@@ -24,7 +24,7 @@ type OfStep<'s> = Box<dyn Fn(&StepSummary) -> Option<f64> + 's>;
 pub fn write_step_figure(path: &Path, title: &str, steps: &[StepSummary], units: &Units) -> Result<(), OutputError> {
     let failed = || OutputError::Figure { path: path.into(), reason: "no step has a contact".into() };
     let text = diagrams(&[block(title, steps, units)]).ok_or_else(failed)?;
-    fs::write(path, text).map_err(OutputError::io("write", path))
+    fs::write(path, text).map_err(OutputError::unwritten(path))
 }
 
 /// The diagrams of all contacts.

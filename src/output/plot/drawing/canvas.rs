@@ -101,7 +101,16 @@ impl Canvas {
 
     /// What is drawn by `draw`, with a name by which scripts find it.
     pub fn named(&mut self, name: &str, draw: impl FnOnce(&mut Self)) {
-        self.add(format_args!("<g data-name=\"{}\">", escape(name)));
+        self.group(format_args!("<g data-name=\"{}\">", escape(name)), draw);
+    }
+
+    /// What is drawn by `draw`, with words that stand beside the pointer while it is there.
+    pub fn told(&mut self, words: &str, draw: impl FnOnce(&mut Self)) {
+        self.group(format_args!("<g pointer-events=\"all\"><title>{}</title>", escape(words)), draw);
+    }
+
+    fn group(&mut self, opening: Arguments, draw: impl FnOnce(&mut Self)) {
+        self.add(opening);
         draw(self);
         self.add(format_args!("</g>"));
     }
@@ -122,7 +131,7 @@ impl Canvas {
     /// # Errors
     /// The operating system refuses.
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
-        fs::write(path, self.svg()).map_err(OutputError::io("write", path))
+        fs::write(path, self.svg()).map_err(OutputError::unwritten(path))
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::guesses::{Guesses, POISSON, PRESSED, Press, Weight, YOUNG};
 use super::named_curve::{LOADED, MIRRORED, NamedCurve, PULLED};
-use super::node_circle::NodeCircle;
 use crate::contact::ClosePair;
-use crate::run::checking::proposals::{MeanProposal, TableNames, contact_table, key, quoted, short};
+use crate::run::checking::node_circle::NodeCircle;
+use crate::run::checking::proposals::{MeanProposal, TableNames, contact_table, digits, key, quoted, short};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -14,9 +14,6 @@ const MOST_NAMED: usize = 60;
 /// Unknowns that the example may have, and times those of the first mesh at least, so that there is room to adapt it.
 const MOST_UNKNOWNS: usize = 200_000;
 const ROOM: usize = 4;
-
-/// Coordinates below this share of a radius are 0.
-const NOTHING: f64 = 1e-9;
 
 /// What the case will say.
 pub struct Draft<'a> {
@@ -35,7 +32,7 @@ impl Draft<'_> {
         self.bodies(&mut text, &weights);
         self.circles(&mut text);
         self.contacts(&mut text);
-        self.tool(&mut text);
+        self.tools(&mut text);
         self.supports(&mut text, &mut tables);
         self.guides(&mut text, &weights, &mut tables);
         if weights.is_empty() || self.guesses.pressed().is_some() {
@@ -63,7 +60,13 @@ impl Draft<'_> {
             let [first, second] = &pair.between;
             format!("the contact of \"{first}\" and \"{second}\" is left out: {why}")
         };
-        self.guesses.unnamed.iter().map(close).chain(self.guesses.refused.iter().map(left_out)).collect()
+        self.guesses.unnamed.iter().map(close).chain(self.guesses.refused.iter().map(left_out)).chain(self.no_load()).collect()
+    }
+
+    /// Words for a load that is left out with the contact that would carry it.
+    fn no_load(&self) -> Option<String> {
+        let body = (0..self.names.len()).find(|&body| self.guesses.is_cut_off(body))?;
+        Some(format!("the contact that would carry a load of {} is left out", quoted(&self.guesses.mesh.bodies[body])))
     }
 
     fn head(&self, text: &mut String, named: &str) {
@@ -86,7 +89,7 @@ order = 2
             quoted(&title),
             quoted(named),
         );
-        let accuracy = match self.guesses.pairs.is_empty() {
+        let accuracy = match self.guesses.pairs.is_empty() && self.guesses.tools.is_empty() {
             true => "energy = 0.02            # the mesh is adapted until the energy norm is good to 2 %",
             false => "pressure = 0.01          # the mesh is adapted until the contact pressure is good to 1 %",
         };
@@ -122,9 +125,8 @@ order = 2
         let mut tables = TableNames::default();
         for curve in self.guesses.curves.iter().filter(|curve| curve.is_touched) {
             let Some(NodeCircle { centre, radius, .. }) = curve.circle else { continue };
-            let digits = |x: f64| format!("{x:.9e}").parse::<f64>().unwrap_or(x);
-            let [x, y] = [centre.x, centre.y].map(|x| if x.abs() < NOTHING * radius { 0.0 } else { digits(x) });
-            let (name, own, radius) = (tables.fresh(curve.name), quoted(curve.name), digits(radius));
+            let [x, y, radius] = [centre.x, centre.y, radius].map(|part| digits(part, radius));
+            let (name, own) = (tables.fresh(curve.name), quoted(curve.name));
             let why = "its nodes lie on this circle; leave this out if it is meant with straight sides";
             let _ = write!(text, "\n[geometry.{name}]       # {why}\ncurves = {own}\n");
             let _ = writeln!(text, "circle = {{ centre = [{x:?}, {y:?}], radius = {radius:?} }}");
@@ -133,7 +135,8 @@ order = 2
 
     fn contacts(&self, text: &mut String) {
         let mut tables = TableNames::default();
-        if self.guesses.mesh.bodies.len() > 1 && self.guesses.pairs.is_empty() && self.guesses.refused.is_empty() {
+        let has_any = !self.guesses.pairs.is_empty() || !self.guesses.tools.is_empty();
+        if self.guesses.mesh.bodies.len() > 1 && !has_any && self.guesses.refused.is_empty() {
             *text += "\n# No named boundaries of two bodies lie close and face each other. What may touch is written so:\n";
             *text += "# [contact.NAME]\n# between = [\"boundary of body 1\", \"boundary of body 2\"]\n";
         }
@@ -146,13 +149,19 @@ order = 2
         }
     }
 
-    /// What may press on a body that is alone: a rigid tool above the boundary that is pressed, as a comment.
-    fn tool(&self, text: &mut String) {
+    /// The rigid tools that are drawn in the mesh. What may press on a body that is alone without them: one above the boundary that is
+    /// pressed, as a comment.
+    fn tools(&self, text: &mut String) {
+        if !self.guesses.tools.is_empty() {
+            *text += "\n# Curves of the mesh that bound no body are taken for rigid tools.\n";
+            let tables: Vec<&str> = self.guesses.tools.iter().map(|tool| tool.text.as_str()).collect();
+            *text += &tables.join("\n");
+            return;
+        }
         let is_below = |curve: &&NamedCurve| curve.normal.y > 0.0 && curve.high.x > curve.low.x && !curve.has(PULLED);
         let pressed = self.guesses.pressed().filter(is_below).filter(|_| self.guesses.mesh.bodies.len() == 1);
         let Some(curve) = pressed else { return };
-        let [left, right, high] =
-            [curve.low.x, curve.high.x, curve.high.y].map(|x| format!("{x:.9e}").parse::<f64>().unwrap_or(x));
+        let [left, right, high] = [curve.low.x, curve.high.x, curve.high.y].map(|x| digits(x, curve.length));
         let _ = write!(
             text,
             "
@@ -200,9 +209,11 @@ order = 2
 
     fn load(&self, text: &mut String, press: Press) {
         let (is_pressed_in, pressed) = (self.guesses.is_pressed_in(), self.guesses.pressed());
-        let Some(curve) = pressed.filter(|_| press != Press::Nothing && !is_pressed_in) else {
+        let has_tools = !self.guesses.tools.is_empty();
+        let Some(curve) = pressed.filter(|_| press != Press::Nothing && !is_pressed_in && !has_tools) else {
             let on = pressed.map_or("boundary", |curve| curve.name);
             *text += &match (is_pressed_in, pressed) {
+                _ if has_tools => "\n# The rigid tools press. A further load is written so:\n".into(),
                 (true, _) => {
                     "\n# Bodies are drawn into each other: that interference is the load. A further one is written so:\n".into()
                 }
@@ -210,7 +221,10 @@ order = 2
                     "\n# Nothing presses yet: `mezha check` refuses a load on {}, as the bodies are held here. A load is written so:\n",
                     quoted(curve.name)
                 ),
-                (_, None) => "\n# Nothing presses yet. A load is written so:\n".to_owned(),
+                (_, None) => {
+                    let why = self.no_load().map_or(String::new(), |why| format!(": {why}"));
+                    format!("\n# Nothing presses yet{why}. A load is written so:\n")
+                }
             };
             let table = format!("# [load.NAME]\n# on = {}\n# pressure = 1.0\n", quoted(on));
             *text += &(table + "# or, all over a body, as a line of its table:\n# body_force = [0.0, -1.0]\n");
@@ -276,7 +290,7 @@ angle = 0.0               # and does not turn
         for curve in curves.iter().take(MOST_NAMED) {
             let (name, body) = (quoted(curve.name), quoted(&self.guesses.mesh.bodies[curve.body]));
             let sizes = [curve.length, curve.low.x, curve.high.x, curve.low.y, curve.high.y];
-            let [length, left, right, low, high] = sizes.map(short);
+            let [length, left, right, low, high] = sizes.map(|size| short(digits(size, curve.length)));
             let _ = writeln!(text, "#   {name}: of {body}, length {length}, x from {left} to {right}, y from {low} to {high}");
         }
         if curves.len() > MOST_NAMED {

@@ -4,6 +4,7 @@ use super::named_curve::{ALONG, LOADED, MIRRORED, NamedCurve, PULLED};
 use crate::contact::{ClosePair, close_pairs};
 use crate::geometry::{Point, cross};
 use crate::mesh::{Boundary, MacroMesh};
+use crate::run::checking::tools::{ProposedTool, proposed_tools};
 use std::cmp::Ordering;
 
 /// Young's modulus and Poisson's ratio of the example: steel, in MPa.
@@ -54,6 +55,8 @@ pub struct Guesses<'a> {
     pub curves: Vec<NamedCurve<'a>>,
     /// Named boundaries that may touch.
     pub pairs: Vec<ClosePair>,
+    /// Rigid tools that curves without triangles may be.
+    pub tools: Vec<ProposedTool>,
     /// Those of them that no contact can be made of as they are drawn, and why.
     pub refused: Vec<(ClosePair, String)>,
     /// Bodies that lie close, though no named boundaries of theirs do.
@@ -63,10 +66,12 @@ pub struct Guesses<'a> {
 impl<'a> Guesses<'a> {
     pub fn new(mesh: &'a MacroMesh) -> Self {
         let pairs = close_pairs(mesh, &[]);
-        let curves = mesh.boundaries.iter().filter_map(|boundary| NamedCurve::new(mesh, boundary, &pairs)).collect();
+        let tools = proposed_tools(mesh, &[], &[]);
+        let mut curves: Vec<_> = mesh.boundaries.iter().filter_map(|boundary| NamedCurve::new(mesh, boundary, &pairs)).collect();
+        curves.iter_mut().for_each(|curve| curve.is_touched |= tools.iter().any(|tool| tool.boundary == curve.name));
         let is_known = |bodies: &[usize; 2]| pairs.iter().any(|pair| pair.bodies == *bodies);
         let unnamed = close_outlines(mesh).into_iter().filter(|bodies| !is_known(bodies)).collect();
-        Self { mesh, curves, pairs, refused: Vec::new(), unnamed }
+        Self { mesh, curves, pairs, tools, refused: Vec::new(), unnamed }
     }
 
     /// Leaves out the pair of these names, in any order; says whether there is one.
@@ -131,13 +136,19 @@ impl<'a> Guesses<'a> {
         self.held().iter().map(|held| held.body).chain(self.foundation().map(|(body, _)| body)).collect()
     }
 
+    /// Whether a body has lost all its contacts, since these are refused: nothing would carry a load on it.
+    pub fn is_cut_off(&self, body: usize) -> bool {
+        let is_in = |pair: &ClosePair| pair.bodies.contains(&body);
+        self.refused.iter().any(|(pair, _)| is_in(pair)) && !self.pairs.iter().any(is_in) && !self.bases().contains(&body)
+    }
+
     /// The boundary that is pressed: by its name, or because it is the highest and looks up; on a body that is not held, unless a name loads one that is.
     /// That of a body that is drawn into another is an example alone: what presses is the interference.
     pub fn pressed(&self) -> Option<&NamedCurve<'a>> {
         let (bases, held, is_alone) = (self.bases(), self.held(), self.mesh.bodies.len() == 1);
         let is_held = |curve: &NamedCurve| held.iter().any(|held| held.name == curve.name);
         let is_free = |curve: &NamedCurve| is_alone || !bases.contains(&curve.body) || curve.has(LOADED);
-        let other = |curve: &&NamedCurve| is_free(curve) && !is_held(curve);
+        let other = |curve: &&NamedCurve| is_free(curve) && !is_held(curve) && !self.is_cut_off(curve.body);
         let rank = |curve: &&NamedCurve| (curve.has(LOADED), curve.is_held(), curve.normal.y > ALONG, curve.high.y);
         let likely = self.free().filter(other);
         let likely = likely.filter(|curve| curve.has(LOADED) || curve.is_held() || curve.normal.y > ALONG);

@@ -6,7 +6,6 @@
 mod draft;
 mod guesses;
 mod named_curve;
-mod node_circle;
 
 use crate::case::{Case, CaseError};
 use crate::contact::Pair;

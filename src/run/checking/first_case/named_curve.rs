@@ -1,9 +1,9 @@
 //! Named boundaries, as `mezha new` looks at them.
 
-use super::node_circle::NodeCircle;
 use crate::contact::ClosePair;
 use crate::geometry::Point;
 use crate::mesh::{Boundary, MacroMesh};
+use crate::run::checking::node_circle::NodeCircle;
 
 /// Words in names of boundaries that are held, loaded, those of them that are pulled, and of symmetry, with blanks between them.
 pub const HELD: &str =
@@ -58,7 +58,7 @@ impl<'a> NamedCurve<'a> {
             high,
             normal: normal / length,
             length,
-            circle: NodeCircle::through(mesh, &boundary.edges),
+            circle: NodeCircle::of_edges(mesh, &boundary.edges),
             is_touched: pairs.iter().any(|pair| pair.between.contains(&boundary.name)),
         })
     }

@@ -2,3 +2,5 @@
 
 pub(crate) mod after;
 pub(crate) mod before;
+pub(crate) mod pulled;
+pub(crate) mod shrinking;

@@ -18,14 +18,19 @@ pub struct NodeCircle {
 }
 
 impl NodeCircle {
-    /// The circle that all ends of some edges lie on, if there is one that the edges, which are straight, follow in small steps.
-    pub fn through(mesh: &MacroMesh, edges: &[u32]) -> Option<Self> {
+    /// The circle that the nodes of straight edges of a mesh lie on, as [`through`](Self::through) their lines.
+    pub fn of_edges(mesh: &MacroMesh, edges: &[u32]) -> Option<Self> {
         let is_straight = |&edge: &u32| mesh.edges[edge as usize].shape.is_none();
-        if edges.len() < LEAST_EDGES || !edges.iter().all(is_straight) {
+        let line = |&edge: &u32| mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
+        edges.iter().all(is_straight).then(|| Self::through(&edges.iter().map(line).collect::<Vec<_>>()))?
+    }
+
+    /// The circle that all ends of some lines lie on, if there is one that the lines follow in small steps.
+    pub fn through(lines: &[[Point; 2]]) -> Option<Self> {
+        if lines.len() < LEAST_EDGES {
             return None;
         }
-        let ends = |edge: u32| mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
-        let points: Vec<Point> = edges.iter().flat_map(|&edge| ends(edge)).collect();
+        let points = lines.as_flattened();
         let first = points[0];
         let far = |from: Point| move |a: &&Point, b: &&Point| (*a - from).norm().total_cmp(&(*b - from).norm());
         let second = *points.iter().max_by(far(first))?;
@@ -35,9 +40,8 @@ impl NodeCircle {
         let centre = circumcentre([first, second, third])?;
         let radius = (first - centre).norm();
         let is_on = points.iter().all(|x| ((x - centre).norm() - radius).abs() <= OFF * radius);
-        let length = |edge: u32| (ends(edge)[1] - ends(edge)[0]).norm();
-        let angle = |edge: u32| 2.0 * (0.5 * length(edge) / radius).min(1.0).asin();
-        (is_on && edges.iter().all(|&edge| angle(edge) <= WIDEST_TURN)).then_some(Self { centre, radius })
+        let angle = |[a, b]: &[Point; 2]| 2.0 * (0.5 * (b - a).norm() / radius).min(1.0).asin();
+        (is_on && lines.iter().all(|line| angle(line) <= WIDEST_TURN)).then_some(Self { centre, radius })
     }
 }
 
@@ -57,7 +61,7 @@ mod tests {
 
     #[test]
     fn a_fine_polygon_is_a_circle_and_a_coarse_one_and_a_line_are_none() {
-        let found = |mesh: &MacroMesh| NodeCircle::through(mesh, &mesh.boundaries[0].edges);
+        let found = |mesh: &MacroMesh| NodeCircle::of_edges(mesh, &mesh.boundaries[0].edges);
         let circle = found(&fan(16)).expect("16 edges of 22.5 degrees");
         assert!((circle.centre - Point::new(3.0, -1.0)).norm() < 1e-12 && (circle.radius - 2.0).abs() < 1e-12, "{circle:?}");
         assert_eq!(found(&fan(8)), None, "an octagon");

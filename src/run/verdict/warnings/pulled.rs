@@ -12,7 +12,9 @@ const ROUNDING: f64 = 1e-9;
 /// of them, no pressures add up to it.
 pub fn pulled_off(scene: &Scene) -> Option<String> {
     let mesh = &scene.mesh;
-    let held = held_bodies(scene);
+    let mut held = held_bodies(scene);
+    let named = scene.means.iter().filter_map(|hold| mesh.bodies.iter().position(|name| *name == hold.body));
+    named.for_each(|body| held[body] = true);
     let mut forces: Option<Vec<Point>> = None;
     (0..mesh.bodies.len()).filter(|&body| !held[body]).find_map(|body| {
         let is_own = |edges: &&[u32]| edges.first().is_some_and(|&edge| mesh.body_beside(edge) == body);
@@ -32,8 +34,8 @@ pub fn pulled_off(scene: &Scene) -> Option<String> {
     })
 }
 
-/// Which bodies something else than a unilateral contact holds.
-fn held_bodies(scene: &Scene) -> Vec<bool> {
+/// Which bodies something else than a unilateral contact and a hold of their mean holds.
+pub fn held_bodies(scene: &Scene) -> Vec<bool> {
     let mesh = &scene.mesh;
     let mut held: Vec<bool> = (0..mesh.bodies.len()).map(|body| scene.is_rigid(body)).collect();
     let names = scene.supports.iter().map(|support| &support.on).chain(scene.springs.iter().map(|springs| &springs.on));
@@ -42,8 +44,6 @@ fn held_bodies(scene: &Scene) -> Vec<bool> {
     edges.for_each(|edge| held[mesh.body_beside(edge)] = true);
     let spots = scene.supports.iter().filter_map(|support| mesh.triangle_at(mesh.vertex_at(support.at.as_ref()?)?));
     spots.for_each(|triangle| held[mesh.triangles[triangle as usize].body as usize] = true);
-    let named = scene.means.iter().filter_map(|hold| mesh.bodies.iter().position(|name| *name == hold.body));
-    named.for_each(|body| held[body] = true);
     for set in &scene.rigid {
         if let RigidNodes::Boundaries(names) = &set.nodes {
             mesh.edges_on(names).for_each(|edge| held[mesh.body_beside(edge)] = true);
@@ -67,7 +67,7 @@ fn forces_on_bodies(scene: &Scene) -> Option<Vec<Point>> {
 }
 
 /// The loads of a body, as the case calls them.
-fn loads_of(scene: &Scene, body: usize) -> Vec<String> {
+pub fn loads_of(scene: &Scene, body: usize) -> Vec<String> {
     let mesh = &scene.mesh;
     let along = scene.loads.iter().filter(|load| mesh.edges_on(&load.on).any(|edge| mesh.body_beside(edge) == body));
     let at_body = |vertex: u32| mesh.triangle_at(vertex).map(|triangle| mesh.triangles[triangle as usize].body as usize);

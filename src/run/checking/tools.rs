@@ -1,0 +1,105 @@
+//! Curves of the mesh that bound no body, as rigid tools to paste.
+
+use super::node_circle::NodeCircle;
+use super::proposals::{TableNames, common_name, digits, quoted, short};
+use crate::case::Tool;
+use crate::contact::Pair;
+use crate::geometry::{Curve, Point, cross, turn_right};
+use crate::mesh::{LooseCurve, MacroMesh, SurfacePart};
+use std::f64::consts::TAU;
+
+/// Points that are nearer than this share of its length to the line between the ends of a curve lie on it.
+const STRAIGHT: f64 = 1e-6;
+
+/// A tool faces a boundary if the cosine of the angle between their normals is larger than this (60 degrees).
+const FACES: f64 = 0.5;
+
+/// A tool that is farther than this share of a curve's size from each of its points is another one.
+const ELSEWHERE: f64 = 1e-6;
+
+/// The example moves a tool into the body by this share of the length of the boundary.
+const PRESSED: f64 = 1e-3;
+
+/// A rigid tool that a curve of the mesh may be drawn for.
+pub struct ProposedTool {
+    /// The boundary that it presses on.
+    pub boundary: String,
+    /// Its tables.
+    pub text: String,
+}
+
+/// The tools that the curves without triangles may be drawn for, where they are straight or circles, face a boundary and are none of
+/// the tools of the case.
+pub fn proposed_tools(mesh: &MacroMesh, tools: &[Tool], contacts: &[Pair]) -> Vec<ProposedTool> {
+    let mut names = TableNames::of(tools.iter().map(|tool| tool.key().trim_start_matches("rigid.").to_owned()));
+    let mut names_of_contacts = TableNames::of(contacts.iter().map(|pair| pair.name.clone()));
+    let is_new = |curve: &&LooseCurve| !tools.iter().any(|tool| is_drawn(curve, &tool.surface));
+    let proposed = mesh.loose.iter().filter(is_new).filter_map(|curve| {
+        let (shape, surface) = shape_of(curve)?;
+        let (boundary, motion) = pressed(mesh, tools, &surface)?;
+        let name = names.fresh(&curve.name);
+        let contact = names_of_contacts.fresh(&common_name(&[boundary.clone(), name.clone()]));
+        let sides = [&boundary, &format!("rigid.{name}")].map(|side| quoted(side)).join(", ");
+        let text = format!("[rigid.{name}]\n{shape}\n{motion}\n[contact.{contact}]\nbetween = [{sides}]\n");
+        Some(ProposedTool { boundary, text })
+    });
+    proposed.collect()
+}
+
+/// How the example moves a tool: along one axis, against the normal of what it presses on.
+fn moved(normal: Point, way: f64) -> String {
+    let axis = normal.iamax();
+    let way = -normal[axis].signum() * way;
+    let words = "example: how far it is moved; or, in the place of this, force = [fx, fy]";
+    let key = |k: usize, key: &str| match k == axis {
+        true => format!("{key} = {}   # {words}\n", short(way)),
+        false => format!("{key} = 0.0\n"),
+    };
+    format!("{}{}angle = 0.0\n", key(0, "ux"), key(1, "uy"))
+}
+
+/// Whether a curve is that of a tool: all of its points lie on that.
+fn is_drawn(curve: &LooseCurve, surface: &[SurfacePart]) -> bool {
+    let points = || curve.lines.iter().flatten();
+    let size = points().map(|x| (x - curve.lines[0][0]).norm()).fold(0.0, f64::max);
+    points().all(|x| surface.iter().any(|part| (foot(part, *x).0 - x).norm() <= ELSEWHERE * size))
+}
+
+/// The point of a part that is nearest to another point, and the normal there.
+fn foot(part: &SurfacePart, x: Point) -> (Point, Point) {
+    let t = part.curve.nearest(x);
+    let t = if part.curve.is_line() { t.clamp(part.range[0], part.range[1]) } else { t };
+    (part.curve.point(t), turn_right(part.curve.tangent(t)))
+}
+
+/// The shape of a curve as a key of its table, and as a surface; nothing where it is neither a circle nor straight.
+fn shape_of(curve: &LooseCurve) -> Option<(String, SurfacePart)> {
+    if let Some(NodeCircle { centre, radius }) = NodeCircle::through(&curve.lines) {
+        let [x, y, radius] = [centre.x, centre.y, radius].map(|part| digits(part, radius));
+        let surface = SurfacePart { curve: Curve::Circle { centre: [x, y], radius }, range: [0.0, TAU] };
+        return Some((format!("circle = {{ centre = [{x:?}, {y:?}], radius = {radius:?} }}"), surface));
+    }
+    let points = curve.lines.as_flattened();
+    let farthest = |from: Point| points.iter().copied().max_by(|a, b| (a - from).norm().total_cmp(&(b - from).norm()));
+    let first = farthest(points[0])?;
+    let last = farthest(first)?;
+    let (way, size) = (last - first, (last - first).norm());
+    let is_straight = points.iter().all(|x| cross(way, x - first).abs() <= STRAIGHT * size * size);
+    let ends = [last, first].map(|x| [x.x, x.y].map(|part| digits(part, size)));
+    is_straight.then(|| (format!("line = {ends:?}"), SurfacePart { curve: Curve::Line(ends), range: [0.0, 1.0] }))
+}
+
+/// The named boundary that a surface faces nearest, and how the example moves the surface until it presses there.
+fn pressed(mesh: &MacroMesh, tools: &[Tool], surface: &SurfacePart) -> Option<(String, String)> {
+    let curves = mesh.physical_curves().into_iter().filter(|curve| !tools.iter().any(|tool| tool.has(&curve.name)));
+    let named = curves.flat_map(|boundary| boundary.edges.iter().map(move |&edge| (boundary, edge)));
+    let places = named.flat_map(|(boundary, edge)| [0.0, 0.5, 1.0].map(|t| (boundary, edge, t)));
+    let facing = places.filter_map(|(boundary, edge, t)| {
+        let (x, normal) = (mesh.edge_position(edge, t), mesh.edge_normal(edge, t));
+        let (foot, across) = foot(surface, x);
+        (across.dot(&normal).abs() > FACES).then(|| ((foot - x).norm(), normal, boundary))
+    });
+    let (distance, normal, boundary) = facing.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let length: f64 = boundary.edges.iter().map(|&edge| mesh.edge_length(edge)).sum();
+    Some((boundary.name.clone(), moved(normal, distance + PRESSED * length)))
+}

@@ -1,0 +1,108 @@
+//! Bodies that nothing but contact holds, that nothing loads, and that shrink away from all of it.
+
+use super::pulled::{held_bodies, loads_of};
+use crate::contact::{GapChoice, Pair, drawn_gap};
+use crate::discretisation::Scene;
+use crate::geometry::Point;
+use crate::mesh::Numbering;
+
+/// A share of a body's size that is rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// A shift that one component of the mean of a mean motion holds has at least this part along it.
+const ALONG: f64 = 1e-6;
+
+/// A body that is cooler than what it touches, and comes loose there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShrunkBody {
+    /// Its name.
+    pub name: String,
+    /// Which of its two shifts nothing holds.
+    pub moves: [bool; 2],
+    /// The support that holds the rest of its mean motion, if there is one.
+    pub hold: Option<String>,
+}
+
+impl ShrunkBody {
+    /// The first such body of a scene: as small as its heat makes it, about the middle of its contacts, it touches none of them any more.
+    pub fn of(scene: &Scene, numbering: &Numbering) -> Option<Self> {
+        let mesh = &scene.mesh;
+        if !scene.is_heated() {
+            return None;
+        }
+        let (held, strains) = (held_bodies(scene), strains(scene));
+        (0..mesh.bodies.len()).filter(|&body| !held[body]).find_map(|body| {
+            let pairs: Vec<(&Pair, usize)> =
+                scene.pairs.iter().filter_map(|pair| Some((pair, side(scene, pair, body)?))).collect();
+            let others = pairs.iter().flat_map(|(pair, own)| mesh.edges_of(&pair.between[1 - own]));
+            let least = others.map(|&edge| strains[mesh.body_beside(edge)][0]).reduce(f64::min)?;
+            let (shrinks, moves) = (least - strains[body][1], free_shifts(scene, body));
+            let may_be = shrinks > 0.0 && moves != [false; 2] && loads_of(scene, body).is_empty();
+            let opens = |by: f64| pairs.iter().all(|(pair, _)| depth(scene, numbering, pair) < by);
+            let name = mesh.bodies[body].clone();
+            let hold = scene.means.iter().find(|hold| hold.body == name).map(|hold| hold.name.clone());
+            (may_be && opens(shrinks * least_reach(scene, &pairs)?)).then_some(Self { name, moves, hold })
+        })
+    }
+
+    /// What is said of it.
+    pub fn words(&self) -> String {
+        let keys = ["ux = 0.0", "uy = 0.0"].into_iter().zip(self.moves).filter(|(_, moves)| *moves);
+        let (name, keys) = (&self.name, keys.map(|(key, _)| key).collect::<Vec<_>>().join(" and "));
+        let remedy = match &self.hold {
+            Some(hold) => format!("write {keys} into [support.{hold}], too"),
+            None => format!("hold its mean, by a support with body = \"{name}\", mean = true, {keys}"),
+        };
+        format!(
+            "body {name} shrinks, as it is cooler than what it touches, so that all its contacts open, and nothing else holds it: {remedy}"
+        )
+    }
+}
+
+/// Which side of a contact lies on a body.
+fn side(scene: &Scene, pair: &Pair, body: usize) -> Option<usize> {
+    let is_own = |name: &String| scene.mesh.edges_of(name).first().is_some_and(|&edge| scene.mesh.body_beside(edge) == body);
+    pair.between.iter().position(is_own)
+}
+
+/// The least and the largest strain `α ϑ` of each body by its heat, at its vertices.
+fn strains(scene: &Scene) -> Vec<[f64; 2]> {
+    let mesh = &scene.mesh;
+    let mut strains = vec![[f64::INFINITY, f64::NEG_INFINITY]; mesh.bodies.len()];
+    for triangle in &mesh.triangles {
+        let heat = scene.heat(triangle.part as usize);
+        for x in triangle.vertices.map(|vertex| mesh.vertices[vertex as usize]) {
+            let strain = heat.map_or(0.0, |heat| heat.expansion * heat.temperature.value(&[x.x, x.y]));
+            let [least, most] = &mut strains[triangle.body as usize];
+            (*least, *most) = (least.min(strain), most.max(strain));
+        }
+    }
+    strains
+}
+
+/// How deep the sides of a contact reach into each other before anything moves (length); without bound where that is not known.
+fn depth(scene: &Scene, numbering: &Numbering, pair: &Pair) -> f64 {
+    match &pair.gap {
+        GapChoice::Closed => 0.0,
+        GapChoice::Formula(gap) => gap.as_constant().map_or(f64::INFINITY, |gap| -gap),
+        GapChoice::Geometry => drawn_gap(&scene.mesh, numbering, pair).map_or(f64::INFINITY, |gap| -gap.least),
+    }
+}
+
+/// The least distance of the sides that a body has in contact from their middle, along their normals (length); nothing where one does
+/// not look away from that.
+fn least_reach(scene: &Scene, pairs: &[(&Pair, usize)]) -> Option<f64> {
+    let mesh = &scene.mesh;
+    let edges = || pairs.iter().flat_map(|(pair, own)| mesh.edges_of(&pair.between[*own]));
+    let length: f64 = edges().map(|&edge| mesh.edge_length(edge)).sum();
+    let middle = edges().map(|&edge| mesh.edge_length(edge) * mesh.edge_position(edge, 0.5)).sum::<Point>() / length;
+    let reach = |&edge: &u32| (mesh.edge_position(edge, 0.5) - middle).dot(&mesh.edge_normal(edge, 0.5));
+    edges().map(reach).reduce(f64::min).filter(|least| *least > ROUNDING * length)
+}
+
+/// The shifts of a body that no mean hold takes.
+fn free_shifts(scene: &Scene, body: usize) -> [bool; 2] {
+    let own = scene.means.iter().filter(|hold| hold.body == scene.mesh.bodies[body]).flat_map(|hold| &hold.held);
+    let shifts: Vec<_> = own.filter(|held| !held.is_turn()).collect();
+    [0, 1].map(|k| shifts.iter().all(|held| held.mode[k].abs() < ALONG))
+}
