@@ -383,6 +383,11 @@ support.turn = { body = "pin", mean = true, angle = 0.0 }
         let (code, output, errors) = check(&[set]);
         assert!(code == Some(0) && !errors.contains("shrinks"), "{set}: {output}{errors}");
     }
+    // A plate that is pressed follows a roller that shrinks.
+    let roller = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/roller/case.toml");
+    let cooled = ["check", roller, "--set", "body.roller.expansion=1e-5", "--set", "body.roller.temperature=-10"];
+    let (code, output, errors) = mezha_in(folder.path(), None, &cooled);
+    assert!(code == Some(0) && !errors.contains("shrinks"), "{output}{errors}");
 }
 
 /// Without a support the first thing to mend is the load: a hold would carry it unseen.

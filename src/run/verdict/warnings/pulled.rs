@@ -67,7 +67,7 @@ fn forces_on_bodies(scene: &Scene) -> Option<Vec<Point>> {
 }
 
 /// The loads of a body, as the case calls them.
-pub fn loads_of(scene: &Scene, body: usize) -> Vec<String> {
+fn loads_of(scene: &Scene, body: usize) -> Vec<String> {
     let mesh = &scene.mesh;
     let along = scene.loads.iter().filter(|load| mesh.edges_on(&load.on).any(|edge| mesh.body_beside(edge) == body));
     let at_body = |vertex: u32| mesh.triangle_at(vertex).map(|triangle| mesh.triangles[triangle as usize].body as usize);

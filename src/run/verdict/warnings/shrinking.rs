@@ -1,6 +1,6 @@
-//! Bodies that nothing but contact holds, that nothing loads, and that shrink away from all of it.
+//! Bodies that nothing but contact holds, and that shrink away from all of it.
 
-use super::pulled::{held_bodies, loads_of};
+use super::pulled::held_bodies;
 use crate::contact::{GapChoice, Pair, drawn_gap};
 use crate::discretisation::Scene;
 use crate::geometry::Point;
@@ -24,20 +24,23 @@ pub struct ShrunkBody {
 }
 
 impl ShrunkBody {
-    /// The first such body of a scene: as small as its heat makes it, about the middle of its contacts, it touches none of them any more.
+    /// The body of a scene that shrinks, if nothing else acts there: as small as its heat makes it, about the middle of its contacts, it
+    /// touches none of them any more. Where anything else acts, what it touches may follow it.
     pub fn of(scene: &Scene, numbering: &Numbering) -> Option<Self> {
         let mesh = &scene.mesh;
-        if !scene.is_heated() {
+        let mut cold = scene.clone();
+        cold.bodies.iter_mut().flat_map(|body| &mut body.parts).for_each(|part| part.heat = None);
+        if !scene.is_heated() || cold.is_driven(numbering) {
             return None;
         }
         let (held, strains) = (held_bodies(scene), strains(scene));
-        (0..mesh.bodies.len()).filter(|&body| !held[body]).find_map(|body| {
+        let is_warm = |body: &usize| strains[*body] != [0.0; 2];
+        let mut warm = (0..mesh.bodies.len()).filter(is_warm);
+        warm.next().filter(|&body| !held[body] && warm.next().is_none()).and_then(|body| {
             let pairs: Vec<(&Pair, usize)> =
                 scene.pairs.iter().filter_map(|pair| Some((pair, side(scene, pair, body)?))).collect();
-            let others = pairs.iter().flat_map(|(pair, own)| mesh.edges_of(&pair.between[1 - own]));
-            let least = others.map(|&edge| strains[mesh.body_beside(edge)][0]).reduce(f64::min)?;
-            let (shrinks, moves) = (least - strains[body][1], free_shifts(scene, body));
-            let may_be = shrinks > 0.0 && moves != [false; 2] && loads_of(scene, body).is_empty();
+            let (shrinks, moves) = (-strains[body][1], free_shifts(scene, body));
+            let may_be = shrinks > 0.0 && moves != [false; 2];
             let opens = |by: f64| pairs.iter().all(|(pair, _)| depth(scene, numbering, pair) < by);
             let name = mesh.bodies[body].clone();
             let hold = scene.means.iter().find(|hold| hold.body == name).map(|hold| hold.name.clone());
