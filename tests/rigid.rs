@@ -439,3 +439,21 @@ solver.tolerance = 1e-11
         assert!((place - 0.8).abs() < 1e-9, "{place}");
     }
 }
+
+/// A flat tool of two pieces that go on in a straight line: a contact with the first alone leaves out what presses on the second.
+#[test]
+fn contact_that_goes_on_beyond_its_boundary_is_not_trusted() {
+    let case = format!(
+        "{BLOCK}support.left = {{ on = \"left\", ux = 0.0 }}\n\
+         rigid.die = {{ line = [[-0.5, 1.0], [1.0, 1.0], [2.5, 1.0]], uy = -0.01 }}\n\
+         contact.first = {{ between = [\"top\", \"rigid.die.1\"] }}\n"
+    );
+    for ranks in [1, 2] {
+        let words = "both bodies go on beyond";
+        let alone = in_folder(&block(), &case, |run| run.ranks(ranks).set("mesh.refine", 3).converged());
+        assert!(alone.value("/contact/first/trust") == false && alone.errors.contains(words), "{}", alone.said());
+        let both = format!("{case}contact.second = {{ between = [\"top\", \"rigid.die.2\"] }}\n");
+        let both = in_folder(&block(), &both, |run| run.ranks(ranks).set("mesh.refine", 3).converged());
+        assert!(!both.errors.contains(words), "{}", both.said());
+    }
+}

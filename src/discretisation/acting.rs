@@ -13,7 +13,12 @@ pub const BY_ROUNDING: f64 = 1e-9;
 impl Scene {
     /// Whether it has loads, prescribed motions, heat or interference. Without them its bodies stay as they are drawn.
     pub fn is_driven(&self, numbering: &Numbering) -> bool {
-        is_loaded(self) || is_moved(self) || self.pairs.iter().any(|pair| interferes(self, numbering, pair))
+        self.is_pushed() || self.pairs.iter().any(|pair| interferes(self, numbering, pair))
+    }
+
+    /// Whether it has loads, prescribed motions or heat.
+    pub fn is_pushed(&self) -> bool {
+        is_loaded(self) || is_moved(self)
     }
 }
 

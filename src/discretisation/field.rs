@@ -64,9 +64,10 @@ impl<const K: usize> Field<K> {
     /// Adds up what all ranks have gathered at each node, and shares the sums. **Collective**
     pub fn sum(mut self, session: &Session) -> Self {
         let (far, halo) = self.halo(session);
-        let gathered: Vec<[f64; K]> = far.iter().map(|node| self.others[node]).collect();
-        halo.give(&gathered, &mut self.own);
-        self.fetch(session);
+        let mut values: Vec<[f64; K]> = far.iter().map(|node| self.others[node]).collect();
+        halo.give(&values, &mut self.own);
+        halo.fetch(&self.own, &mut values, || ());
+        self.others.extend(far.into_iter().zip(values));
         self
     }
 

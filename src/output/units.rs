@@ -78,7 +78,8 @@ impl Units {
     /// estimates are shares, whatever they are of.
     pub fn of_place(&self, place: &str) -> String {
         let key = place.rsplit('.').next().unwrap_or_default();
-        let is_share = ["accuracy", "estimate", "errors"].iter().any(|table| place.starts_with(table));
+        let is_share = ["accuracy", "estimate", "errors", "balance"].iter().any(|table| place.starts_with(table))
+            || place.contains(".zones.");
         match key {
             _ if is_share => place.to_owned(),
             _ if LENGTHS.contains(&key) => self.length().of(place),
@@ -126,8 +127,9 @@ mod tests {
     #[test]
     fn columns_are_named_by_what_they_hold() {
         let units = Units::new(Some("mm"), Some("N"), false);
-        let heads = ["contact.a.force", "body.b.young", "displacement_max", "accuracy.pressure", "mesh.refine"];
-        let told = ["contact.a.force [N/mm]", "body.b.young [MPa]", "displacement_max [mm]", "accuracy.pressure", "mesh.refine"];
+        let heads = ["contact.a.force", "body.b.young", "displacement_max", "accuracy.pressure", "balance.force"];
+        let told =
+            ["contact.a.force [N/mm]", "body.b.young [MPa]", "displacement_max [mm]", "accuracy.pressure", "balance.force"];
         assert_eq!(heads.map(|place| units.of_place(place)), told);
         assert_eq!(heads.map(|place| Units::default().of_place(place)), heads);
     }

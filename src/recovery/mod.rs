@@ -19,6 +19,7 @@ mod balance;
 mod cell_energies;
 mod contact_forces;
 mod corners;
+mod cut_off;
 mod deformation;
 mod error_norm;
 mod evaluation;

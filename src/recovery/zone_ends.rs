@@ -27,7 +27,7 @@ const AMONG: f64 = 0.5;
 const GOES_ON: f64 = 0.75;
 
 /// Two ends are one if they are nearer than this share of the length.
-const SAME: f64 = 1e-6;
+pub const SAME: f64 = 1e-6;
 
 impl ContactPressure<'_> {
     /// Whether λ grows towards an end of Γ_C, ever more quickly, and without bound as meshes are refined, as far as the values
@@ -115,7 +115,7 @@ impl ContactPressure<'_> {
 }
 
 /// How far the boundary of each body goes on beyond an end of Γ_C, by the length of Γ_C.
-fn beyond(contact: &Contact, mesh: &MacroMesh, end: usize) -> [f64; 2] {
+pub fn beyond(contact: &Contact, mesh: &MacroMesh, end: usize) -> [f64; 2] {
     let boundary = &contact.boundary;
     let [first, last] = boundary.ends();
     let (here, length) = (if end == 0 { first } else { last }, last - first);

@@ -159,6 +159,10 @@ pub struct ZoneSummary {
     /// Where materials meet and λ grows without bound.
     #[serde(default, deserialize_with = "numbers")]
     pub singular_at: Option<[f64; 2]>,
+    /// λ at an end of the contact boundary beyond which both bodies go on smoothly and no other contact takes over, by its largest
+    /// pressure; 0 where there is no such end.
+    #[serde(default)]
+    pub cut_off: Option<f64>,
     /// Whether it lies at an end of the contact boundary where one body has a corner and the other goes on.
     pub corner: Option<bool>,
 }

@@ -65,7 +65,7 @@ fn keys_are_the_names_that_other_tools_rely_on() {
         ),
         (
             "/contact/seam/zones/0",
-            "corner edges ends force hertz_width lambda peak peak_at_end pressure_max segments share singular singular_at singular_at_end whole worst",
+            "corner cut_off edges ends force hertz_width lambda peak peak_at_end pressure_max segments share singular singular_at singular_at_end whole worst",
         ),
         ("/body/lower", "is_believed place verdict von_mises_max"),
         ("/body/upper", "is_believed part parts place verdict von_mises_max"),

@@ -147,7 +147,7 @@ impl Summary {
         let line = |(name, contact): (&String, &ContactSummary)| {
             let own = self.estimate.contact.get(name);
             let figure = |what: &str, value: Option<f64>, unit: &str, error: Option<f64>| {
-                let error = error.map_or(String::new(), |error| format!(" to {error:.1e}"));
+                let error = error.map_or(String::new(), |error| format!(" (estimated error {error:.1e})"));
                 value.map(|value| format!("{what} {}{unit}{error}", Rounded(value)))
             };
             let force = figure("force", contact.force, &force_unit, own.and_then(|own| own.force));
@@ -216,7 +216,7 @@ mod tests {
             Summary { units: Units::new(Some("mm"), Some("N"), false), ..summary(&[(Some(true), 7.5), (Some(false), 2.0)]) };
         few.contact.get_mut("c000").expect("it is there").pressure_max = Some(135.0);
         few.estimate.contact.insert("c000".into(), ContactEstimate { force: Some(1e-3), ..ContactEstimate::default() });
-        let first = "contact c000: force 7.5 N/mm to 1.0e-3, largest λ 135 MPa; trusted";
+        let first = "contact c000: force 7.5 N/mm (estimated error 1.0e-3), largest λ 135 MPa; trusted";
         assert_eq!(few.contact_lines(), [first, "contact c001: force 2 N/mm; not trusted: narrow"]);
         assert_eq!(summary(&[(None, 1.0); 9]).contact_lines().len(), 1);
     }

@@ -105,7 +105,38 @@ pub(crate) fn proposed_contacts(case: &Case, mesh: &MacroMesh) -> Vec<String> {
     if let Ok(case) = Case::parse(&format!("{}\n{}", case.resolved(), drawn.join("\n")), &case.file, &[]) {
         measure(&mut close, &case);
     }
-    tables(&close, names)
+    let refused = take_refused(&mut close, |pairs| {
+        let tables: Vec<String> = tables(pairs, names.clone());
+        Case::parse(&format!("{}\n{}", case.resolved(), tables.join("\n")), &case.file, &[]).ok()
+    });
+    tables(&close, names.clone()).into_iter().chain(refused).collect()
+}
+
+/// Takes away the pairs of which no contact can be made as they are drawn, and says why, as comments; `with` is the case with contacts
+/// of some pairs.
+fn take_refused(pairs: &mut Vec<ClosePair>, with: impl Fn(&[ClosePair]) -> Option<Case>) -> Vec<String> {
+    let mut told = Vec::new();
+    while let Some((between, why)) = with(pairs).filter(|_| !pairs.is_empty()).and_then(|case| refusal(&case)) {
+        let Some(at) = pairs.iter().position(|pair| pair.between == between) else { break };
+        let [a, b] = pairs.remove(at).between.each_ref().map(|name| quoted(name));
+        told.push(format!("# {a} and {b} lie close, too; as they are drawn no contact can be made of them:\n#   {why}\n"));
+    }
+    told
+}
+
+/// The boundaries of the contact of a case that is refused first, and why; nothing if all can be placed.
+fn refusal(case: &Case) -> Option<([String; 2], String)> {
+    let mesh = scene::read_mesh_file(case).and_then(|bytes| scene::read_mesh(case, &bytes)).ok()?;
+    let error = scene::first(case, mesh).and_then(|scene| Ok(Procedure::look(&scene, 0)?)).err()?;
+    refused_contact(&error.to_string(), case)
+}
+
+/// The boundaries of the contact that words of a refusal name, and what they say of it.
+pub(crate) fn refused_contact(words: &str, case: &Case) -> Option<([String; 2], String)> {
+    case.contacts.iter().find_map(|pair| {
+        let (_, why) = words.split_once(&format!("contact.{}: ", key(&pair.name)))?;
+        Some((pair.between.clone(), why.lines().next()?.to_owned()))
+    })
 }
 
 /// Gives pairs the distances at which a case draws its contacts, curves taken as they are meant; where that cannot be told they keep

@@ -1,7 +1,7 @@
 //! Curves of the mesh that bound no body, as rigid tools to paste.
 
 use super::node_circle::NodeCircle;
-use super::proposals::{TableNames, common_name, digits, quoted, short};
+use super::proposals::{TableNames, common_name, digits, quoted};
 use crate::case::Tool;
 use crate::contact::Pair;
 use crate::geometry::{Curve, Point, cross, turn_right};
@@ -14,7 +14,7 @@ const STRAIGHT: f64 = 1e-6;
 /// A tool faces a boundary if the cosine of the angle between their normals is larger than this (60 degrees).
 const FACES: f64 = 0.5;
 
-/// A tool that is farther than this share of a curve's size from each of its points is another one.
+/// A tool that is farther than this share of a curve's size from any of its points is another one.
 const ELSEWHERE: f64 = 1e-6;
 
 /// The example moves a tool into the body by this share of the length of the boundary.
@@ -52,7 +52,7 @@ fn moved(normal: Point, way: f64) -> String {
     let way = -normal[axis].signum() * way;
     let words = "example: how far it is moved; or, in the place of this, force = [fx, fy]";
     let key = |k: usize, key: &str| match k == axis {
-        true => format!("{key} = {}   # {words}\n", short(way)),
+        true => format!("{key} = {}   # {words}\n", digits(way, way.abs())),
         false => format!("{key} = 0.0\n"),
     };
     format!("{}{}angle = 0.0\n", key(0, "ux"), key(1, "uy"))

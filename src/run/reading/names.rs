@@ -70,7 +70,7 @@ impl Names<'_> {
             return Err(format!("{key}: \"{name}\" {words}"));
         }
         if self.mesh.loose.iter().any(|curve| curve.name == name) {
-            let words = "bounds no body: none of its lines is an edge of a triangle; leave it out here: if it is a rigid tool, `mezha check` then tells how it is written";
+            let words = "bounds no body: none of its lines is an edge of a triangle; if its body lacks a `Physical Surface`, or nodes of its own (`Coherence Mesh` merges them), mend the mesh; if it is a rigid tool, leave it out here, and `mezha check` tells how it is written";
             return Err(format!("{key}: \"{name}\" {words}"));
         }
         let known = self.mesh.boundaries.iter().map(|boundary| &boundary.name);

@@ -99,6 +99,7 @@ impl<'a> Zones<'a> {
                 singular: Some(singular),
                 singular_at_end: Some(at_end),
                 singular_at: joint,
+                cut_off: Some(pressure.cut_off(&problem.scene.mesh, zone, &problem.contacts)),
                 corner: Some((0..2).any(|end| pressure.ends_at_a_corner(&problem.scene.mesh, zone, end))),
             }
         };

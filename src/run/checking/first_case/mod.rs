@@ -8,10 +8,9 @@ mod guesses;
 mod named_curve;
 
 use crate::case::{Case, CaseError};
-use crate::contact::Pair;
 use crate::mesh::{parse_joined, read_bytes, touching_surfaces};
 use crate::run::checking::check::check;
-use crate::run::checking::proposals::{TableNames, key, measure, proposed_supports, quoted};
+use crate::run::checking::proposals::{TableNames, measure, proposed_supports, quoted, refused_contact};
 use crate::run::outcome::RunError;
 use draft::Draft;
 use guesses::{Guesses, Press};
@@ -75,11 +74,7 @@ struct Refusal {
 
 impl Refusal {
     fn new(words: String, case: Option<&Case>) -> Self {
-        let refused = |pair: &Pair| {
-            let (_, why) = words.split_once(&format!(": contact.{}: ", key(&pair.name)))?;
-            Some((pair.between.clone(), why.lines().next()?.to_owned()))
-        };
-        let contact = case.and_then(|case| case.contacts.iter().find_map(refused));
+        let contact = case.and_then(|case| refused_contact(&words, case));
         Self { words, contact }
     }
 }

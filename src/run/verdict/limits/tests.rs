@@ -5,7 +5,7 @@ use crate::accuracy::NARROWEST;
 use crate::procedure::MOVES;
 
 /// Every row of the table, with its figure.
-const ROWS: [(&str, &Limit); 26] = [
+const ROWS: [(&str, &Limit); 27] = [
     ("inf_sup", &INF_SUP),
     ("oscillation", &OSCILLATION),
     ("zones[].edges", &EDGES),
@@ -18,6 +18,7 @@ const ROWS: [(&str, &Limit); 26] = [
     ("zones[].force", &ZONE_FORCE),
     ("missing", &OVERLAP),
     ("unresolved_force", &WITHIN_SEGMENTS),
+    ("zones[].cut_off", &CUT_OFF),
     ("estimate.energy", &ENERGY),
     ("estimate.NAME.force", &FORCE),
     ("corner_error", &CORNERS),

@@ -7,14 +7,15 @@ use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary::ContactSummary;
 use crate::run::verdict::limits::{
-    Doubt, GROWTH, LITTLE_SLIP, LOST_AT_ENDS, P1_LOCKS, RESIDUAL, ROTATION, SLIP, SLIP_AT_ENDS, STRAIN, TURNING, WITHIN_SEGMENTS,
-    percent,
+    CUT_OFF, Doubt, GROWTH, LITTLE_SLIP, LOST_AT_ENDS, P1_LOCKS, RESIDUAL, ROTATION, SLIP, SLIP_AT_ENDS, STRAIN, TURNING,
+    WITHIN_SEGMENTS, percent,
 };
 use crate::run::words::short;
 
 /// All of it, of one contact. Of one that carries nothing what is measured by its own length or force does not count.
 pub fn doubts_beyond(summary: &Summary, contact: &ContactSummary, case: &Case, carries: bool) -> Vec<Doubt> {
-    let own = slip_doubt(contact).into_iter().chain(end_doubt(contact)).chain(unresolved_doubt(contact));
+    let own =
+        slip_doubt(contact).into_iter().chain(end_doubt(contact)).chain(unresolved_doubt(contact)).chain(cut_doubt(contact));
     let turning = turning_doubt(contact).filter(|_| carries || contact.zones.is_empty());
     let residual = summary.solver.residual.filter(|_| !case.solver.goes_by_estimate());
     let bodies = strain_doubts(summary).into_iter().chain(rotation_doubts(summary)).chain(locking_doubt(case));
@@ -26,6 +27,12 @@ pub fn slip_doubt(contact: &ContactSummary) -> Option<Doubt> {
     let (slip, error) = (contact.slip?, contact.slip_error?);
     let by_turning = contact.rotation_error.is_some_and(|turning| turning > SLIP.value && turning > 0.5 * error);
     SLIP.judge(Some(error).filter(|_| slip > LITTLE_SLIP && !by_turning), &[("slip", &short(slip))])
+}
+
+/// What tells that contact goes on beyond the end of its boundary.
+fn cut_doubt(contact: &ContactSummary) -> Option<Doubt> {
+    let most = contact.zones.iter().filter_map(|zone| zone.cut_off).reduce(f64::max);
+    CUT_OFF.judge(most, &[])
 }
 
 /// What tells that bodies have slid along each other so far that they have another length in common, or lie elsewhere.

@@ -23,7 +23,7 @@ use told::{TRUSTED, Verdict, clauses, in_order};
 /// What is said of the pressures of a run.
 #[derive(Debug, Default)]
 pub struct Judgement {
-    /// Figures that speak against pressures, before what to do about them: clauses.
+    /// Clauses: figures that speak against pressures, each with what to do about it.
     pub unreliable: Option<String>,
     /// What nothing tells, a clause each.
     pub unknown: Vec<String>,

@@ -14,7 +14,8 @@ const CUT: &str = "take quadrature = \"cut\"";
 impl Remedy {
     /// The words for a contact. `pair` is as it was solved: on a mesh that makes itself the segments are the program's own.
     pub fn words(self, pair: &Pair, case: &Case) -> String {
-        let finer = format!("take mesh.refine = {}, or a mesh that is adapted, by accuracy = 1e-2", case.mesh.refine + 1);
+        let finer =
+            format!("take mesh.refine = {}, or a mesh that is adapted, by [accuracy] with pressure = 1e-2", case.mesh.refine + 1);
         match self {
             Self::Words(words) => words.into(),
             Self::MoreSegments if pair.segments != SegmentRule::Auto => {

@@ -41,6 +41,7 @@ pub fn zone() -> ZoneSummary {
         singular: Some(false),
         singular_at_end: Some(false),
         singular_at: None,
+        cut_off: Some(0.0),
         corner: Some(false),
     }
 }

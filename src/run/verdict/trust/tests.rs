@@ -231,7 +231,7 @@ fn what_helps_stands_beside_its_cause() {
     assert_eq!(clauses.len(), 2, "{clauses:?}");
     assert!(is(clauses[0], ["contact seam (inf-sup", "overlap", "trusted: take fewer segments"]), "{clauses:?}");
     assert!(
-        is(clauses[1], ["contact seam (estimated error of λ 0.20", ": take mesh.refine = 3", "accuracy = 1e-2"]),
+        is(clauses[1], ["contact seam (estimated error of λ 0.20", ": take mesh.refine = 3", "[accuracy] with pressure = 1e-2"]),
         "{clauses:?}"
     );
 }

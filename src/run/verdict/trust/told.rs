@@ -83,7 +83,8 @@ pub fn clauses(names: &[&str], verdicts: &BTreeMap<String, Verdict>, of: fn(&Ver
         remedy => remedy.clone().unwrap_or_default(),
     };
     let mut groups = summary::alike(all.map(|(name, objection)| (key(objection), (name, objection))));
-    groups.sort_by_key(|(_, group)| std::cmp::Reverse(if is_many { group.len() } else { 0 }));
+    let contacts = |group: &[(&str, &Objection)]| group.iter().map(|(name, _)| *name).collect::<BTreeSet<_>>().len();
+    groups.sort_by_key(|(_, group)| std::cmp::Reverse(if is_many { contacts(group) } else { 0 }));
     let clause = |(cause, group): (String, Vec<(&str, &Objection)>)| {
         let remedy = group[0].1.remedy.as_ref().map_or(String::new(), |remedy| format!(": {remedy}"));
         let told = summary::alike(group.into_iter().map(|(name, objection)| (name.to_owned(), objection.words.as_str())));

@@ -43,9 +43,7 @@ fn doubts_of(zone: &ZoneSummary, contact: &ContactSummary) -> Vec<Doubt> {
 pub fn unknown_of(contact: &ContactSummary, trust_force: Option<bool>, remedy: String) -> Option<Objection> {
     if let Some(zone) = counting(contact).find(|zone| is_concentrated(zone, trust_force)) {
         let edges = zone.edges.unwrap_or(f64::NAN);
-        let words = format!(
-            "the corner of a body presses on {edges:.1} edges: its force is to be trusted, its pressure is singular there"
-        );
+        let words = format!("the corner of a body presses on {edges:.1} edges: its pressure is singular there");
         return Some(Objection { cause: "the corner of a body presses, the force is to be trusted", words, remedy: None });
     }
     let cause = "nothing estimates the error of its pressure";

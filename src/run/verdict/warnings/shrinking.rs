@@ -3,13 +3,14 @@
 use super::pulled::held_bodies;
 use crate::contact::{GapChoice, Pair, drawn_gap};
 use crate::discretisation::Scene;
+use crate::element::Plane;
 use crate::geometry::Point;
 use crate::mesh::Numbering;
 
 /// A share of a body's size that is rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// A shift that one component of the mean of a mean motion holds has at least this part along it.
+/// A mean motion that is held holds a shift if its direction has at least this part along it.
 const ALONG: f64 = 1e-6;
 
 /// A body that is cooler than what it touches, and comes loose there.
@@ -24,28 +25,27 @@ pub struct ShrunkBody {
 }
 
 impl ShrunkBody {
-    /// The body of a scene that shrinks, if nothing else acts there: as small as its heat makes it, about the middle of its contacts, it
-    /// touches none of them any more. Where anything else acts, what it touches may follow it.
+    /// The body of a scene in the plane that shrinks evenly, if nothing else acts there and all contacts are its own: as small as its heat
+    /// makes it, about the middle of its contacts, it touches none of them any more, and no stress is left. Where anything else acts,
+    /// what it touches may follow it; what is cooled unevenly bends.
     pub fn of(scene: &Scene, numbering: &Numbering) -> Option<Self> {
         let mesh = &scene.mesh;
         let mut cold = scene.clone();
         cold.bodies.iter_mut().flat_map(|body| &mut body.parts).for_each(|part| part.heat = None);
-        if !scene.is_heated() || cold.is_driven(numbering) {
+        if !scene.is_heated() || cold.is_pushed() || mesh.plane == Plane::Revolution {
             return None;
         }
-        let (held, strains) = (held_bodies(scene), strains(scene));
-        let is_warm = |body: &usize| strains[*body] != [0.0; 2];
-        let mut warm = (0..mesh.bodies.len()).filter(is_warm);
-        warm.next().filter(|&body| !held[body] && warm.next().is_none()).and_then(|body| {
-            let pairs: Vec<(&Pair, usize)> =
-                scene.pairs.iter().filter_map(|pair| Some((pair, side(scene, pair, body)?))).collect();
-            let (shrinks, moves) = (-strains[body][1], free_shifts(scene, body));
-            let may_be = shrinks > 0.0 && moves != [false; 2];
-            let opens = |by: f64| pairs.iter().all(|(pair, _)| depth(scene, numbering, pair) < by);
-            let name = mesh.bodies[body].clone();
-            let hold = scene.means.iter().find(|hold| hold.body == name).map(|hold| hold.name.clone());
-            (may_be && opens(shrinks * least_reach(scene, &pairs)?)).then_some(Self { name, moves, hold })
-        })
+        let strains = strains(scene);
+        let mut warm = (0..mesh.bodies.len()).filter(|&body| strains[body] != [0.0; 2]);
+        let body = warm.next().filter(|&body| !held_bodies(scene)[body] && warm.next().is_none())?;
+        let pairs: Option<Vec<(&Pair, usize)>> = scene.pairs.iter().map(|pair| Some((pair, side(scene, pair, body)?))).collect();
+        let (pairs, [least, most], moves) = (pairs?, strains[body], free_shifts(scene, body));
+        let is_even = most < 0.0 && most - least < ROUNDING * -least;
+        let opens = |by: f64| pairs.iter().all(|(pair, _)| depth(scene, numbering, pair) < by);
+        let name = mesh.bodies[body].clone();
+        let hold = scene.means.iter().find(|hold| hold.body == name).map(|hold| hold.name.clone());
+        let comes_loose = is_even && moves != [false; 2] && opens(-most * least_reach(scene, &pairs)?);
+        comes_loose.then_some(Self { name, moves, hold })
     }
 
     /// What is said of it.
