@@ -2,11 +2,13 @@
 
 use crate::accuracy::{NARROWEST, share_of_nothing};
 use crate::case::Case;
-use crate::contact::{Law, SegmentRule};
+use crate::contact::{Configuration, Law, Pair, SegmentRule};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
 use crate::procedure::MOVES;
-use crate::run::verdict::limits::{DEEPEST, EDGES, FORCE_OFF, HERTZ_BY_UNRESOLVED, LEFT, OVERLAP_ALONE, WORTH_WITHIN_SEGMENTS};
+use crate::run::verdict::limits::{
+    DEEPEST, EDGES, FORCE_OFF, HERTZ_BY_UNRESOLVED, LEFT, LITTLE_SLIP, OVERLAP_ALONE, SLIP, WORTH_WITHIN_SEGMENTS,
+};
 use crate::run::words::short;
 
 /// What is judged at.
@@ -100,10 +102,8 @@ fn within_segments(judged: &Judged) -> Option<String> {
 fn still_moving(judged: &Judged) -> Option<String> {
     let moved = judged.moved.filter(|moved| *moved > MOVES)?;
     let (name, _) = judged.contacts().next()?;
-    Some(format!(
-        "the ends of the contact boundary find no rest: they still moved by {moved:.0e} of its length; {}",
-        judged.remedy(name, f64::INFINITY)
-    ))
+    let remedy = judged.against_sliding().unwrap_or_else(|| judged.remedy(name, f64::INFINITY));
+    Some(format!("the ends of the contact boundary find no rest: they still moved by {moved:.0e} of its length; {remedy}"))
 }
 
 /// Bodies that turn or slide so far that a linear theory has them meet as they would not.
@@ -131,6 +131,18 @@ impl Judged<'_> {
         pairs.filter_map(|pair| Some((pair.name.as_str(), self.summary.contact.get(&pair.name)?)))
     }
 
+    /// What helps where bodies slide so far along a curve that its normals are those of other places: no finer mesh does.
+    fn against_sliding(&self) -> Option<String> {
+        let slides = |pair: &&Pair| {
+            let contact = self.summary.contact.get(&pair.name);
+            let is_far = |contact: &ContactSummary| contact.slip.is_some_and(|slip| slip > LITTLE_SLIP);
+            contact.is_some_and(|contact| is_far(contact) && contact.slip_error.is_some_and(|error| error > SLIP.value))
+        };
+        let stays = |pair: &&Pair| pair.configuration == Configuration::Reference;
+        let pair = self.case.contacts.iter().filter(stays).find(slides)?;
+        Some(format!("its bodies slide far along each other: take contact.{}.configuration = \"deformed\"", pair.name))
+    }
+
     /// The force from which a contact counts.
     fn least_force(&self) -> f64 {
         share_of_nothing(self.case.accuracy.as_ref()) * self.summary.largest_force()
@@ -147,5 +159,26 @@ impl Judged<'_> {
             "take mesh.refine = {}, or a mesh that is adapted, by [accuracy] with force = 1e-2",
             self.case.mesh.refine + finer
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::verdict::trust::samples::case;
+
+    /// Ends that move because the bodies have slid far are not brought to rest by a finer mesh.
+    #[test]
+    fn ends_that_find_no_rest_are_mended_by_what_moves_them() {
+        let told = |slip: f64, settings: &[&str]| {
+            let contact = ContactSummary { slip: Some(slip), slip_error: Some(0.1 * slip), ..ContactSummary::default() };
+            let summary = Summary { contact: [("seam".to_owned(), contact)].into(), ..Summary::default() };
+            unresolved(&summary, &case(settings), Some(2.0 * MOVES)).expect("they move")
+        };
+        let deformed = "take contact.seam.configuration = \"deformed\"";
+        assert!(told(1.4, &[]).ends_with(deformed), "{}", told(1.4, &[]));
+        for (slip, settings) in [(0.01, &[][..]), (1.4, &["contact.seam.configuration=deformed"])] {
+            assert!(told(slip, settings).contains("take mesh.refine = "), "{}", told(slip, settings));
+        }
     }
 }
