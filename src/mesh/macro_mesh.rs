@@ -259,7 +259,9 @@ impl MacroMesh {
                 format!("a line of the physical curve \"{curve}\" {what}; physical curves must bound bodies, or parts of them");
             self.syntax(place, words)
         };
-        let Some(edge) = edge else { return Err(refused("is not an edge of a triangle, though others of it are, or its nodes")) };
+        let Some(edge) = edge else {
+            return Err(refused("is not an edge of a triangle (`Coherence Mesh` merges nodes that lie on each other)"));
+        };
         let parts = self.edges[edge as usize].triangles.map(|beside| beside.map(|k| self.triangles[k as usize].part));
         if parts[0] == parts[1] {
             return Err(refused("lies inside a body"));
