@@ -452,6 +452,8 @@ fn contact_that_goes_on_beyond_its_boundary_is_not_trusted() {
         let words = "both bodies go on beyond";
         let alone = in_folder(&block(), &case, |run| run.ranks(ranks).set("mesh.refine", 3).converged());
         assert!(alone.value("/contact/first/trust") == false && alone.errors.contains(words), "{}", alone.said());
+        let joined = in_folder(&block(), &case, |run| run.ranks(ranks).set("contact.first.law", "bilateral").converged());
+        assert!(!joined.errors.contains(words), "what is joined may end where it likes: {}", joined.said());
         let both = format!("{case}contact.second = {{ between = [\"top\", \"rigid.die.2\"] }}\n");
         let both = in_folder(&block(), &both, |run| run.ranks(ranks).set("mesh.refine", 3).converged());
         assert!(!both.errors.contains(words), "{}", both.said());

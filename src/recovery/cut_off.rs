@@ -4,7 +4,7 @@
 //! edges from the end of the seat.
 
 use super::zone_ends::{SAME, beyond};
-use crate::contact::Zone;
+use crate::contact::{Law, Zone};
 use crate::discretisation::{Contact, ContactPressure};
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
@@ -30,7 +30,8 @@ impl ContactPressure<'_> {
 
 /// Whether both bodies go on smoothly beyond an end of Γ_C, though the boundary of one or both ends there by its name.
 fn goes_on(contact: &Contact, mesh: &MacroMesh, end: usize) -> bool {
-    if contact.boundary.period().is_some() {
+    // What is joined may end where it likes.
+    if contact.boundary.period().is_some() || contact.pair.law == Law::Bilateral {
         return false;
     }
     let reach = beyond(contact, mesh, end);
