@@ -336,8 +336,10 @@ fn figure_and_page_are_well_formed() {
     assert!(page.contains(&content(&asked)) && asked.contains(">patch_flat: energy.total against mesh.refine<"), "{asked}");
     assert!(page.contains(&content(&first)) && page.contains(&content(&all)) && all.matches("<polygon").count() > 8, "{all}");
     assert!(page.find("<figure>") < page.find("<table>"), "the figure stands first");
-    let names = first.lines().filter(|line| line.contains("a &lt; b &amp; &quot;c&quot;") && !line.contains("stroke="));
+    let told = |tag: &str| first.lines().filter(|line| line.contains(tag) && line.contains("a &lt; b &amp; &quot;c&quot;"));
+    let names = told("<text").filter(|line| !line.contains("stroke="));
     assert_eq!(names.count(), 1, "each line bears its name: {first}");
+    assert_eq!(told("<title>").count(), 3, "and tells it at each point under the pointer: {first}");
     let program = "import sys, xml.etree.ElementTree as tree\nfor file in sys.argv[1:]: tree.parse(file)";
     let files = ["study_figure.svg", "study.svg", "study_all.svg", "report.html"].map(|name| study.out().join(name));
     match Command::new("python3").arg("-c").arg(program).args(files).output() {
