@@ -336,7 +336,8 @@ fn figure_and_page_are_well_formed() {
     assert!(page.contains(&content(&asked)) && asked.contains(">patch_flat: energy.total against mesh.refine<"), "{asked}");
     assert!(page.contains(&content(&first)) && page.contains(&content(&all)) && all.matches("<polygon").count() > 8, "{all}");
     assert!(page.find("<figure>") < page.find("<table>"), "the figure stands first");
-    let told = |tag: &str| first.lines().filter(|line| line.contains(tag) && line.contains("a &lt; b &amp; &quot;c&quot;"));
+    let named = |line: &str| line.contains("a &lt; b &amp; &quot;c&quot;");
+    let told = |tag: &'static str| first.lines().filter(move |line| line.contains(tag) && named(line));
     let names = told("<text").filter(|line| !line.contains("stroke="));
     assert_eq!(names.count(), 1, "each line bears its name: {first}");
     assert_eq!(told("<title>").count(), 3, "and tells it at each point under the pointer: {first}");
