@@ -61,22 +61,11 @@ impl RawMesh {
             .for_each(|end| *end = new[*end as usize]);
     }
 
-    /// Sets curves aside none of whose lines joins two nodes that are `used`, but for those all of whose nodes lie on such nodes: these
-    /// were not merged.
+    /// Sets aside the curves that have no line between two nodes that are `used`.
     fn leave_out_curves(&mut self, used: &[bool]) {
         let joins_triangles = |ends: &[u32; 2]| ends.iter().all(|&end| used[end as usize]);
-        let mut bound: HashSet<String> =
+        let bound: HashSet<String> =
             self.lines.iter().filter(|(_, ends, _)| joins_triangles(ends)).map(|(name, ..)| name.clone()).collect();
-        if self.lines.iter().all(|(name, ..)| bound.contains(name)) {
-            return;
-        }
-        let bits = |vertex: usize| [self.vertices[vertex].x, self.vertices[vertex].y].map(f64::to_bits);
-        let places: HashSet<[u64; 2]> = (0..used.len()).filter(|&vertex| used[vertex]).map(bits).collect();
-        let lies_elsewhere = |ends: &[u32; 2]| ends.iter().any(|&end| !places.contains(&bits(end as usize)));
-        let elsewhere: HashSet<&String> =
-            self.lines.iter().filter(|(_, ends, _)| lies_elsewhere(ends)).map(|(name, ..)| name).collect();
-        let doubled = self.lines.iter().filter(|(name, ..)| !elsewhere.contains(name)).map(|(name, ..)| name.clone());
-        bound.extend(doubled.collect::<Vec<_>>());
         for (name, ends, _) in self.lines.extract_if(.., |(name, ..)| !bound.contains(name)) {
             let line = ends.map(|end| self.vertices[end as usize]);
             match self.loose.iter_mut().find(|curve| curve.name == name) {

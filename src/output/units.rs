@@ -79,7 +79,7 @@ impl Units {
     pub fn of_place(&self, place: &str) -> String {
         let key = place.rsplit('.').next().unwrap_or_default();
         let is_share = ["accuracy", "estimate", "errors", "balance"].iter().any(|table| place.starts_with(table))
-            || place.contains(".zones.");
+            || key == "force" && place.contains(".zones.");
         match key {
             _ if is_share => place.to_owned(),
             _ if LENGTHS.contains(&key) => self.length().of(place),

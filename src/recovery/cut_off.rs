@@ -1,7 +1,7 @@
 //! Contact that goes on beyond the end of its boundary, where no body ends and nothing takes over.
 //!
-//! The roller of a chain that lies in its seat and beside it on the flank, with a contact in the seat alone: λ was 6 to 20 % off a few
-//! edges from the end of the seat.
+//! Of the roller of a chain that lies in its seat and beside it on the flank, with a contact in the seat alone, λ was 6 to 20 % off a
+//! few edges from the end of the seat. Arcs of circles that are given as such are not looked at.
 
 use super::zone_ends::{SAME, beyond};
 use crate::contact::{Law, Zone};
@@ -10,16 +10,23 @@ use crate::geometry::Point;
 use crate::mesh::MacroMesh;
 use std::f64::consts::PI;
 
-/// A boundary goes on smoothly where it turns by less than this (20 degrees): less is taken for chords of an arc.
+/// A boundary goes on smoothly where it turns towards the other body by less than this (20 degrees): less is taken for chords of an
+/// arc.
 const SMOOTH: f64 = PI / 9.0;
+
+/// Where it turns away by more than this (3 degrees), as at a chamfer, contact may end.
+const OPENS: f64 = PI / 60.0;
+
+/// Contacts that adjoin begin within this share of the length from each other, or within an edge: their boundaries are curves of their own.
+const NEAR: f64 = 0.01;
 
 impl ContactPressure<'_> {
     /// λ where a zone presses up to an end of Γ_C, by the largest λ of the zone, if a named boundary ends there, both bodies go on
-    /// smoothly, and none of `all` contacts begins within an edge: what presses beyond is left out. The larger one of both ends; 0 if
+    /// smoothly, and none of `all` contacts begins there: what presses beyond is left out. The larger one of both ends; 0 if
     /// neither is such an end.
     pub fn cut_off(&self, mesh: &MacroMesh, zone: &Zone, all: &[Contact]) -> f64 {
         let contact = self.contact;
-        let is_cut = |end: &usize| zone.is_at_end[*end] && goes_on(contact, mesh, *end) && !is_taken_over(contact, *end, all);
+        let is_cut = |end: &usize| zone.is_at_end[*end] && !is_taken_over(contact, *end, all) && goes_on(contact, mesh, *end);
         let height = |end: usize| {
             let segment = [zone.segments.start, zone.segments.end - 1][end];
             self.value(segment, [0.05, 0.95][end]) / self.peak_of(zone)
@@ -46,13 +53,13 @@ fn is_smooth(contact: &Contact, mesh: &MacroMesh, side: usize, end: usize) -> bo
     let vertices = mesh.edges_of(&contact.pair.between[side]).iter().flat_map(|&edge| mesh.edges[edge as usize].vertices);
     let last = vertices.max_by(|a, b| way(a).total_cmp(&way(b)));
     let around = mesh.boundary_vertices();
-    around.iter().any(|found| Some(found.vertex) == last && (found.angle - PI).abs() < SMOOTH)
+    around.iter().any(|found| Some(found.vertex) == last && (-OPENS..SMOOTH).contains(&(found.angle - PI)))
 }
 
-/// Whether another contact of the same bodies begins within an edge of an end of Γ_C.
+/// Whether another contact of the same bodies begins at an end of Γ_C.
 fn is_taken_over(contact: &Contact, end: usize, all: &[Contact]) -> bool {
     let ends = |contact: &Contact| -> [Point; 2] { contact.boundary.ends().map(|t| contact.boundary.point(t)) };
-    let (here, near) = (ends(contact)[end], contact.edge_length());
+    let (here, near) = (ends(contact)[end], contact.edge_length().max(NEAR * contact.boundary.length()));
     let others =
         all.iter().filter(|other| other.first != contact.first && other.bodies.iter().all(|body| contact.bodies.contains(body)));
     others.flat_map(ends).any(|there| (there - here).norm() < near)

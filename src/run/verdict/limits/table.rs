@@ -87,8 +87,8 @@ pub const OVERLAP_ALONE: f64 = 1e-5;
 pub static WITHIN_SEGMENTS: Limit = most((0.1, two, MoreSegments, "the bodies penetrate each other within segments",
     "the bodies penetrate each other within segments{worth}"));
 
-/// `zones[].cut_off`: λ where a zone is cut off, by its largest: half an ellipse that is cut off where it has a tenth of its height
-/// lacks 4e-4 of its force.
+/// `zones[].cut_off`: λ where a zone is cut off, by its largest: half an ellipse that is cut off at both ends where it has a tenth of its
+/// height lacks 4e-4 of its force.
 pub static CUT_OFF: Limit = most((0.1, two,
     Words("name what lies beyond in this contact, too, or in one of its own that begins there"),
     "contact goes on beyond the end of its boundary",

@@ -31,7 +31,8 @@ pub fn slip_doubt(contact: &ContactSummary) -> Option<Doubt> {
 
 /// What tells that contact goes on beyond the end of its boundary.
 fn cut_doubt(contact: &ContactSummary) -> Option<Doubt> {
-    let most = contact.zones.iter().filter_map(|zone| zone.cut_off).reduce(f64::max);
+    let counting = contact.zones.iter().filter(|zone| zone.counts(&contact.zones));
+    let most = counting.filter_map(|zone| zone.cut_off).reduce(f64::max);
     CUT_OFF.judge(most, &[])
 }
 
