@@ -134,8 +134,14 @@ fn contacts_that_check_refuses_are_left_out_of_first_cases() {
         assert!(text.contains("\n# Left out, since `mezha check` refuses it:\n") && text.contains(left_out), "{name}:\n{text}");
         assert!(text.contains(why) && !text.contains("does not pass"), "{name}:\n{text}");
         assert_eq!(text.matches("\n[contact.").count(), others, "{name}:\n{text}");
-        let (code, _, errors) = mezha_in(folder.path(), None, &["check", "case.toml"]);
+        let (code, output, errors) = mezha_in(folder.path(), None, &["check", "case.toml"]);
         assert_eq!(code, Some(0), "{name}: {errors}\n{text}");
+        let told = format!("{output}{errors}");
+        // Bodies that touch elsewhere, too, want no further contact.
+        assert!(
+            told.contains("no contact can be made of them: ") == (others == 0) && !told.contains("paste this"),
+            "{name}: {told}"
+        );
         // Where no contact of a body is left, nothing would carry a load of it.
         let no_load = "Nothing presses yet: the contact that would carry a load of \"upper\" is left out.";
         assert!(text.contains(no_load) == (others == 0) && !text.contains("\n[load."), "{name}:\n{text}");

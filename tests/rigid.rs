@@ -454,6 +454,10 @@ fn contact_that_goes_on_beyond_its_boundary_is_not_trusted() {
         assert!(alone.value("/contact/first/trust") == false && alone.errors.contains(words), "{}", alone.said());
         let joined = in_folder(&block(), &case, |run| run.ranks(ranks).set("contact.first.law", "bilateral").converged());
         assert!(!joined.errors.contains(words), "what is joined may end where it likes: {}", joined.said());
+        let chamfer = "rigid.die = { line = [[-0.5, 1.0], [1.0, 1.0], [2.5, 1.2]], uy = -0.01 }";
+        let ended = case.replace("rigid.die = { line = [[-0.5, 1.0], [1.0, 1.0], [2.5, 1.0]], uy = -0.01 }", chamfer);
+        let ended = in_folder(&block(), &ended, |run| run.ranks(ranks).set("mesh.refine", 3).converged());
+        assert!(!ended.errors.contains(words), "the tool turns away by eight degrees: {}", ended.said());
         let both = format!("{case}contact.second = {{ between = [\"top\", \"rigid.die.2\"] }}\n");
         let both = in_folder(&block(), &both, |run| run.ranks(ranks).set("mesh.refine", 3).converged());
         assert!(!both.errors.contains(words), "{}", both.said());

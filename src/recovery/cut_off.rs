@@ -14,10 +14,11 @@ use std::f64::consts::PI;
 /// arc.
 const SMOOTH: f64 = PI / 9.0;
 
-/// Where it turns away by more than this (3 degrees), as at a chamfer, contact may end.
+/// Where it turns away by more than this (3 degrees), as at a chamfer, contact may end: chords of 120 around a circle turn by as much.
 const OPENS: f64 = PI / 60.0;
 
-/// Contacts that adjoin begin within this share of the length from each other, or within an edge: their boundaries are curves of their own.
+/// Contacts that adjoin begin within this share of the length from each other, or within an edge: each has a curve of its own. What
+/// overlapped in a hole of 2 % of the length was worth 5 % of the force.
 const NEAR: f64 = 0.01;
 
 impl ContactPressure<'_> {

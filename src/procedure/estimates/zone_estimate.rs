@@ -140,8 +140,8 @@ struct Signs {
 
 impl Signs {
     /// The smaller one of stress and difference, the larger one where materials meet and λ may have no bound, but no less than the
-    /// segments allow. There the stress is that of the body which is farther off: by the mean of both, errors of three of 22 pressures were
-    /// up to 1.6 times the estimate.
+    /// segments allow. There the stress is that of the body which is farther off: by the mean of both, errors of
+    /// three of 22 pressures were up to 1.6 times the estimate.
     fn error(&self) -> Option<f64> {
         let chosen = if self.has_joint { f64::max } else { f64::min };
         let error = [self.stress, self.left].into_iter().flatten().reduce(chosen);

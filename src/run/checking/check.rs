@@ -34,7 +34,8 @@ pub struct Checked {
     /// Words for a body that can move though contact is closed everywhere, or that its loads drive off all its contacts; nothing if
     /// all are held.
     pub not_held: Option<String>,
-    /// Contacts, rigid tools and supports that may be missing, as TOML to paste, with words before them; empty if there is nothing to propose.
+    /// Contacts, rigid tools and supports that may be missing, as TOML to paste, with words before them; empty if there is nothing to
+    /// propose.
     pub proposals: String,
 }
 
@@ -152,7 +153,7 @@ fn body_lines(case: &Case) -> Vec<String> {
 
 /// What may be missing, as TOML to paste.
 fn proposals(case: &Case, mesh: &MacroMesh, is_loose: bool) -> String {
-    let contacts = proposed_contacts(case, mesh);
+    let [contacts, refused] = proposed_contacts(case, mesh);
     let supports = if is_loose { proposed_supports(case) } else { Vec::new() };
     let tools = proposed_tools(mesh, &case.tools, &case.contacts).into_iter().map(|tool| tool.text).collect();
     let mut text = String::new();
@@ -165,6 +166,7 @@ fn proposals(case: &Case, mesh: &MacroMesh, is_loose: bool) -> String {
             text += &format!("\n{words}\n\n{}", tables.join("\n"));
         }
     }
+    refused.iter().for_each(|words| text += &format!("\n{words}\n"));
     text.trim_end().to_owned()
 }
 

@@ -95,8 +95,8 @@ pub(crate) fn digits(value: f64, size: f64) -> f64 {
 }
 
 /// Contacts that a case may have forgotten: boundaries that lie close, of bodies between which it has none, or elsewhere than those
-/// that it has.
-pub(crate) fn proposed_contacts(case: &Case, mesh: &MacroMesh) -> Vec<String> {
+/// that it has; and what is said of those of which no contact can be made.
+pub(crate) fn proposed_contacts(case: &Case, mesh: &MacroMesh) -> [Vec<String>; 2] {
     let taken: Vec<[String; 2]> = case.contacts.iter().map(|contact| contact.between.clone()).collect();
     let names = TableNames::of(case.contacts.iter().map(|pair| pair.name.clone()));
     let mut close: Vec<ClosePair> = close_pairs(mesh, &taken).into_iter().filter(|pair| pair.share() <= CLOSE).collect();
@@ -109,17 +109,17 @@ pub(crate) fn proposed_contacts(case: &Case, mesh: &MacroMesh) -> Vec<String> {
         let tables: Vec<String> = tables(pairs, names.clone());
         Case::parse(&format!("{}\n{}", case.resolved(), tables.join("\n")), &case.file, &[]).ok()
     });
-    tables(&close, names.clone()).into_iter().chain(refused).collect()
+    [tables(&close, names.clone()), refused]
 }
 
-/// Takes away the pairs of which no contact can be made as they are drawn, and says why, as comments; `with` is the case with contacts
-/// of some pairs.
+/// Takes away the pairs of which no contact can be made as they are drawn, and says why; `with` is the case with contacts of some pairs.
 fn take_refused(pairs: &mut Vec<ClosePair>, with: impl Fn(&[ClosePair]) -> Option<Case>) -> Vec<String> {
     let mut told = Vec::new();
-    while let Some((between, why)) = with(pairs).filter(|_| !pairs.is_empty()).and_then(|case| refusal(&case)) {
+    while !pairs.is_empty() {
+        let Some((between, why)) = with(pairs).and_then(|case| refusal(&case)) else { break };
         let Some(at) = pairs.iter().position(|pair| pair.between == between) else { break };
         let [a, b] = pairs.remove(at).between.each_ref().map(|name| quoted(name));
-        told.push(format!("# {a} and {b} lie close, too; as they are drawn no contact can be made of them:\n#   {why}\n"));
+        told.push(format!("the boundaries {a} and {b} lie close; as they are drawn no contact can be made of them: {why}"));
     }
     told
 }

@@ -6,9 +6,8 @@ use crate::contact::{Configuration, Law, Pair, SegmentRule};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
 use crate::procedure::MOVES;
-use crate::run::verdict::limits::{
-    DEEPEST, EDGES, FORCE_OFF, HERTZ_BY_UNRESOLVED, LEFT, LITTLE_SLIP, OVERLAP_ALONE, SLIP, WORTH_WITHIN_SEGMENTS,
-};
+use crate::run::verdict::limits::{DEEPEST, EDGES, FORCE_OFF, HERTZ_BY_UNRESOLVED, LEFT, OVERLAP_ALONE, WORTH_WITHIN_SEGMENTS};
+use crate::run::verdict::trust::slip_doubt;
 use crate::run::words::short;
 
 /// What is judged at.
@@ -133,11 +132,7 @@ impl Judged<'_> {
 
     /// What helps where bodies slide so far along a curve that its normals are those of other places: no finer mesh does.
     fn against_sliding(&self) -> Option<String> {
-        let slides = |pair: &&Pair| {
-            let contact = self.summary.contact.get(&pair.name);
-            let is_far = |contact: &ContactSummary| contact.slip.is_some_and(|slip| slip > LITTLE_SLIP);
-            contact.is_some_and(|contact| is_far(contact) && contact.slip_error.is_some_and(|error| error > SLIP.value))
-        };
+        let slides = |pair: &&Pair| self.summary.contact.get(&pair.name).and_then(slip_doubt).is_some();
         let stays = |pair: &&Pair| pair.configuration == Configuration::Reference;
         let pair = self.case.contacts.iter().filter(stays).find(slides)?;
         Some(format!("its bodies slide far along each other: take contact.{}.configuration = \"deformed\"", pair.name))

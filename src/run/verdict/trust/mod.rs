@@ -6,11 +6,13 @@
 
 mod beyond;
 mod contact;
-pub(super) mod remedies;
+mod remedies;
 #[cfg(test)]
 pub(super) mod samples;
 mod told;
 mod zones;
+
+pub(super) use beyond::slip_doubt;
 
 use crate::case::Case;
 use crate::contact::{Pair, SegmentRule};

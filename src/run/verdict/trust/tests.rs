@@ -215,6 +215,12 @@ fn what_is_beyond_the_model_spoils_the_force_too() {
     assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains("within segments"), "{found:?}");
     let found = seam(&|seam| seam.lost_at_ends = Some(0.3));
     assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains("have in common"), "{found:?}");
+    let found = seam(&|seam| seam.zones[0].cut_off = Some(0.5));
+    assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains("name what lies beyond"), "{found:?}");
+    let noise = ZoneSummary { share: Some(1e-4), pressure_max: Some(1e-3), cut_off: Some(1.0), ..zone() };
+    let beside =
+        judged(true, move |summary| summary.contact.get_mut("seam").expect("it is there").zones.push(noise.clone()), &[]);
+    assert_eq!(beside.0, Some(true), "a zone that nobody looks at: {}", beside.2);
     let found = seam(&|seam| seam.zones[0].lambda = Some(0.2));
     assert!(found.0 == Some(false) && found.1 == Some(true) && found.2.contains("whose force is to be trusted"), "{found:?}");
 }
