@@ -3,7 +3,7 @@
 //! Of the roller of a chain that lies in its seat and beside it on the flank, with a contact in the seat alone, λ was 6 to 20 % off a
 //! few edges from the end of the seat. Arcs of circles that are given as such are not looked at.
 
-use super::zone_ends::{SAME, beyond};
+use super::zone_ends::{SAME, beyond, outwards};
 use crate::contact::{Law, Zone};
 use crate::discretisation::{Contact, ContactPressure};
 use crate::geometry::Point;
@@ -39,7 +39,7 @@ impl ContactPressure<'_> {
 /// Whether both bodies go on smoothly beyond an end of Γ_C, though the boundary of one or both ends there by its name.
 fn goes_on(contact: &Contact, mesh: &MacroMesh, end: usize) -> bool {
     // What is joined may end where it likes.
-    if contact.boundary.period().is_some() || contact.pair.law == Law::Bilateral {
+    if contact.boundary.is_closed() || contact.pair.law == Law::Bilateral {
         return false;
     }
     let reach = beyond(contact, mesh, end);
@@ -50,15 +50,13 @@ fn goes_on(contact: &Contact, mesh: &MacroMesh, end: usize) -> bool {
 
 /// Whether a body goes on smoothly where its boundary ends.
 fn is_smooth(contact: &Contact, mesh: &MacroMesh, side: usize, end: usize) -> bool {
-    let way = |vertex: &u32| [-1.0, 1.0][end] * contact.boundary.foot(mesh.vertices[*vertex as usize]);
-    let vertices = mesh.edges_of(&contact.pair.between[side]).iter().flat_map(|&edge| mesh.edges[edge as usize].vertices);
-    let last = vertices.max_by(|a, b| way(a).total_cmp(&way(b)));
+    let last = outwards(contact, mesh, side, end).max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(vertex, _)| vertex);
     let around = mesh.boundary_vertices();
     around.iter().any(|found| Some(found.vertex) == last && (-OPENS..SMOOTH).contains(&(found.angle - PI)))
 }
 
 /// Whether another contact of the same bodies begins at an end of Γ_C.
-fn is_taken_over(contact: &Contact, end: usize, all: &[Contact]) -> bool {
+pub fn is_taken_over(contact: &Contact, end: usize, all: &[Contact]) -> bool {
     let ends = |contact: &Contact| -> [Point; 2] { contact.boundary.ends().map(|t| contact.boundary.point(t)) };
     let (here, near) = (ends(contact)[end], contact.edge_length().max(NEAR * contact.boundary.length()));
     let others =

@@ -3,13 +3,13 @@
 use super::balance::{Balance, balance};
 use super::corners::{Corners, corners};
 use super::deformation::{Deformation, deformations};
+use super::end_slip::{EndSlip, slip_at_ends};
 use super::motion_error::{MotionError, growth_by_gap, motion_errors};
 use super::overlaps::{missing_force, unresolved_force};
 use super::penetrations::penetrations;
 use super::probe::{Probed, Probing, probe};
 use super::stress::{NodalStress, nodal_stress};
 use super::traces::{TracePoint, trace_points};
-use super::zone_ends::{EndSlip, slip_at_ends};
 use crate::contact::Penetration;
 use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, SystemError};
 use crate::geometry::Point;
@@ -82,7 +82,8 @@ impl<'a> Evaluation<'a> {
 
     /// What sliding does at the ends of a contact that `zones` reach.
     pub fn slip_at_ends(&self, contact: usize, zones: &[[f64; 2]], points: &[TracePoint]) -> Option<EndSlip> {
-        slip_at_ends(&self.problem.contacts[contact], &self.problem.scene.mesh, zones, points)
+        let (all, force) = (&self.problem.contacts, self.balance.contacts[contact].force);
+        slip_at_ends((&all[contact], all), &self.problem.scene.mesh, (zones, points), force)
     }
 
     /// Corners of the bodies of a contact within `zones`: the arcs that press.

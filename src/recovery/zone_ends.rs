@@ -1,9 +1,5 @@
 //! Where the pressure of a zone has no bound, at the ends of Γ_C and where materials meet; corners of one body at these ends.
-//!
-//! The loss of a contact that ends by itself was measured on a layer that slides on a block: it lost 3, 11 and 45 % of its force
-//! where `lost_at_ends` says 3, 11 and 33 %.
 
-use super::traces::TracePoint;
 use crate::contact::{MultiplierSpace, Zone};
 use crate::discretisation::{Contact, ContactPressure};
 use crate::mesh::MacroMesh;
@@ -105,7 +101,7 @@ impl ContactPressure<'_> {
 
     /// Whether a zone reaches an end of Γ_C where one of the bodies has a corner and the other goes on.
     pub fn ends_at_a_corner(&self, mesh: &MacroMesh, zone: &Zone, end: usize) -> bool {
-        if !zone.is_at_end[end] || self.contact.boundary.period().is_some() {
+        if !zone.is_at_end[end] || self.contact.boundary.is_closed() {
             return false;
         }
         let beyond = beyond(self.contact, mesh, end);
@@ -116,89 +112,22 @@ impl ContactPressure<'_> {
 
 /// How far the boundary of each body goes on beyond an end of Γ_C, by the length of Γ_C.
 pub fn beyond(contact: &Contact, mesh: &MacroMesh, end: usize) -> [f64; 2] {
+    let [first, last] = contact.boundary.ends();
+    let farthest = |side| outwards(contact, mesh, side, end).map(|(_, way)| way).fold(f64::NEG_INFINITY, f64::max);
+    [0, 1].map(|side| farthest(side) / (last - first) - 0.5)
+}
+
+/// The vertices of a side, and how far towards an end the foot of each lies from the middle of Γ_C (in its parameter). Round a closed
+/// curve a foot lies on the nearer way.
+pub fn outwards(contact: &Contact, mesh: &MacroMesh, side: usize, end: usize) -> impl Iterator<Item = (u32, f64)> {
     let boundary = &contact.boundary;
-    let [first, last] = boundary.ends();
-    let (here, length) = (if end == 0 { first } else { last }, last - first);
-    contact.pair.between.each_ref().map(|name| {
-        let edges = mesh.edges_of(name);
-        let vertices = edges.iter().flat_map(|&edge| mesh.edges[edge as usize].vertices);
-        let feet = vertices.map(|vertex| boundary.foot(mesh.vertices[vertex as usize]) - here);
-        feet.map(|foot| if end == 0 { -foot } else { foot }).fold(f64::NEG_INFINITY, f64::max) / length
+    let ([first, last], period) = (boundary.ends(), boundary.period());
+    let vertices = mesh.edges_of(&contact.pair.between[side]).iter().flat_map(|&edge| mesh.edges[edge as usize].vertices);
+    vertices.map(move |vertex| {
+        let way = boundary.foot(mesh.vertices[vertex as usize]) - 0.5 * (first + last);
+        let way = way - period.map_or(0.0, |period| (way / period).round() * period);
+        (vertex, [-way, way][end])
     })
-}
-
-/// What sliding does where contact comes near the ends of bodies, in shares of the length that presses.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct EndSlip {
-    /// Way of the bodies along each other at an end of Γ_C that they press up to and where one of them ends; the larger of both.
-    pub way: f64,
-    /// Change of the length that they have in common there. Where they press up to one end alone, what goes on behind the other one
-    /// with the body that ends is no change. Where they press up to none, a quarter of the square of the slip by the distance to
-    /// the nearest end of a body (so much does the force of a layer change that slides to the edge of a block).
-    pub lost: f64,
-}
-
-/// An end of Γ_C that the bodies press up to: how far body 2 slides outwards there, and how far each goes on beyond it (lengths).
-struct SlidEnd {
-    outwards: f64,
-    beyond: [f64; 2],
-}
-
-impl SlidEnd {
-    /// By how much farther the bodies have something in common.
-    fn farther(&self) -> f64 {
-        let [first, second] = self.beyond;
-        first.min(second + self.outwards) - first.min(second)
-    }
-
-    /// What the body that ends here reaches over the other one then, or draws in where both end.
-    fn lost_alone(&self) -> f64 {
-        let [out, stays] = if self.outwards > 0.0 { [1, 0] } else { [0, 1] };
-        let margin = self.beyond[stays] - self.beyond[out];
-        if margin < 0.0 { 0.0 } else { (self.outwards.abs() - margin).max(0.0) }
-    }
-}
-
-/// What sliding does at both ends of a contact with these `zones` (arc lengths, in order); nothing where nothing presses.
-pub fn slip_at_ends(contact: &Contact, mesh: &MacroMesh, zones: &[[f64; 2]], points: &[TracePoint]) -> Option<EndSlip> {
-    if contact.boundary.period().is_some() {
-        return None;
-    }
-    let (whole, pressed) = (contact.boundary.length(), zones.iter().map(|[a, b]| b - a).sum::<f64>());
-    let of_end = |end: usize| {
-        let reaches = |zone: &[f64; 2]| if end == 0 { zone[0] <= SAME * whole } else { zone[1] >= (1.0 - SAME) * whole };
-        let beyond = beyond(contact, mesh, end).map(|beyond| beyond * whole);
-        // Where a fit lets both go on, its end is that of the pressure.
-        if beyond[0].min(beyond[1]) > SAME * whole || !zones.iter().any(reaches) {
-            return None;
-        }
-        let mut complete = points.iter().filter(|point| point.is_complete());
-        Some(SlidEnd { outwards: if end == 0 { -complete.next()?.slip } else { complete.next_back()?.slip }, beyond })
-    };
-    let ends: Vec<SlidEnd> = [0, 1].into_iter().filter_map(of_end).collect();
-    let lost = match ends.as_slice() {
-        [] => return slip_near_ends(contact, mesh, zones, points),
-        [one] => one.lost_alone(),
-        both => both.iter().map(SlidEnd::farther).sum::<f64>().abs(),
-    };
-    let way = ends.iter().map(|end| end.outwards.abs()).fold(0.0, f64::max);
-    Some(EndSlip { way: way / pressed, lost: lost / pressed })
-}
-
-/// The same of contact that ends by itself: between its ends and those of the bodies there is room to slide.
-fn slip_near_ends(contact: &Contact, mesh: &MacroMesh, zones: &[[f64; 2]], points: &[TracePoint]) -> Option<EndSlip> {
-    let whole = contact.boundary.length();
-    let ends = [zones.first()?[0], zones.iter().map(|zone| zone[1]).fold(0.0, f64::max)];
-    let of_end = |end: usize| {
-        let room = if end == 0 { ends[0] } else { whole - ends[1] };
-        let least = beyond(contact, mesh, end).into_iter().map(|beyond| room + beyond * whole).fold(f64::INFINITY, f64::min);
-        let complete = points.iter().filter(|point| point.is_complete());
-        let nearest = complete.min_by(|a, b| (a.arc - ends[end]).abs().total_cmp(&(b.arc - ends[end]).abs()))?;
-        Some(0.25 * (nearest.slip / least).powi(2))
-    };
-    // Where there is no room at all, they lose no more than everything.
-    let lost = [0, 1].into_iter().filter_map(of_end).fold(0.0, f64::max).min(1.0);
-    Some(EndSlip { way: 0.0, lost })
 }
 
 #[cfg(test)]
@@ -318,60 +247,5 @@ mod tests {
         assert_eq!(corners(|x| Point::new(-0.5 * x.x, 0.0), None), [false, true]);
         assert_eq!(corners(|x| Point::new(0.5 * (2.0 - x.x), 0.0), None), [true, false]);
         assert_eq!(corners(|_| Point::zeros(), Some([0.25, 0.75])), [false; 2], "both go on");
-    }
-
-    /// A place in contact where one body slides along the other.
-    fn slid_point(arc: f64, slip: f64) -> TracePoint {
-        TracePoint {
-            arc,
-            x: Point::zeros(),
-            normal: Point::y(),
-            lambda: 1.0,
-            displacement: [0.0; 2],
-            slip,
-            stress: [-1.0; 2],
-            distance: [0.0; 2],
-            gap: 0.0,
-        }
-    }
-
-    /// Two blocks of the width 2, the upper one moved or stretched, that slide along each other: what they lose at their ends.
-    #[test]
-    fn bodies_lose_by_sliding_what_neither_goes_on() {
-        let slid = |upper: &dyn Fn(Point) -> Point, slip: f64| {
-            let scene = blocks(pair(MultiplierSpace::P0, 8), upper, Vec::new());
-            let contact = contact(&scene, Known::default());
-            let length = contact.boundary.length();
-            let at = |arc: f64| slid_point(arc, slip);
-            let found = slip_at_ends(&contact, &scene.mesh, &[[0.0, length]], &[at(0.0), at(length)]).expect("both ends press");
-            assert!((found.way * length - slip.abs()).abs() < 1e-12);
-            found.lost * length
-        };
-        let near = |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-9, "{found} instead of {wanted}");
-        for slip in [0.3, -0.3] {
-            near(slid(&|_| Point::zeros(), slip), 0.3);
-            // The upper block is shorter by a quarter of the width at both ends.
-            let shorter = |x: Point| Point::new(0.5 * (1.0 - x.x), 0.0);
-            near(slid(&shorter, slip), 0.0);
-            near(slid(&shorter, 2.0 * slip), 0.1);
-        }
-        // Shifted by 0.1, it is drawn back first, or goes on.
-        let shifted = |_: Point| Point::new(0.1, 0.0);
-        near(slid(&shifted, 0.3), 0.3);
-        near(slid(&shifted, -0.3), 0.1);
-    }
-
-    /// Contact up to the ends of both bodies, taken for contact that ends before them: there is no room at all.
-    #[test]
-    fn bodies_without_room_lose_all_of_a_contact_and_no_more() {
-        let scene = blocks(pair(MultiplierSpace::P0, 8), |_| Point::zeros(), Vec::new());
-        let contact = contact(&scene, Known::default());
-        let lost = |zone: [f64; 2], slip: f64| {
-            let points = zone.map(|arc| slid_point(arc, slip));
-            slip_near_ends(&contact, &scene.mesh, &[zone], &points).expect("a zone").lost
-        };
-        let length = contact.boundary.length();
-        assert_eq!(lost([0.0, length], 0.3), 1.0);
-        assert!((lost([0.25 * length, 0.75 * length], 0.3) - 0.25 * (0.3 / (0.25 * length)).powi(2)).abs() < 1e-12);
     }
 }

@@ -7,7 +7,7 @@ use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
 use crate::procedure::MOVES;
 use crate::run::verdict::limits::{DEEPEST, EDGES, FORCE_OFF, HERTZ_BY_UNRESOLVED, LEFT, OVERLAP_ALONE, WORTH_WITHIN_SEGMENTS};
-use crate::run::verdict::trust::slip_doubt;
+use crate::run::verdict::trust::{finer_mesh, slip_doubt};
 use crate::run::words::short;
 
 /// What is judged at.
@@ -150,10 +150,7 @@ impl Judged<'_> {
             let tolerance = 0.25 * share_of_nothing(self.case.accuracy.as_ref());
             return format!("ask for a smaller error, as in [accuracy.contact.{contact}] force = {tolerance:.0e}");
         }
-        format!(
-            "take mesh.refine = {}, or a mesh that is adapted, by [accuracy] with force = 1e-2",
-            self.case.mesh.refine + finer
-        )
+        finer_mesh(self.case, finer, "force")
     }
 }
 
@@ -173,7 +170,9 @@ mod tests {
         let deformed = "take contact.seam.configuration = \"deformed\"";
         assert!(told(1.4, &[]).ends_with(deformed), "{}", told(1.4, &[]));
         for (slip, settings) in [(0.01, &[][..]), (1.4, &["contact.seam.configuration=deformed"])] {
-            assert!(told(slip, settings).contains("take mesh.refine = "), "{}", told(slip, settings));
+            assert!(told(slip, settings).contains("by [accuracy] with force"), "{}", told(slip, settings));
         }
+        let stepped = ["steps.up.factors=[0.5, 1.0]", "steps.up.scales=[\"body_force\"]", "body_force=[0.0, -1.0]"];
+        assert!(told(0.01, &stepped).contains("--set steps={} --set accuracy.force"), "{}", told(0.01, &stepped));
     }
 }

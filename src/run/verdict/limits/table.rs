@@ -142,9 +142,10 @@ pub static SLIP: Limit = most((0.01, two_digits, Words("take configuration = \"d
 const SLIDING_CAUSE: &str = "sliding changes what the bodies have in common";
 const AFTER_SLIDING: &str = "draw the bodies as they lie after sliding, or take curve = \"fit\" with configuration = \"deformed\"";
 
-/// `lost_at_ends`: share of the length in contact that bodies lose by sliding at their ends: the force is off by about as much.
+/// `lost_at_ends`: share of the length in contact that bodies lose by sliding at their ends, or of the force that passes to a contact
+/// beside it: the force is off by about as much.
 pub static LOST_AT_ENDS: Limit = most((0.02, two_digits, Words(AFTER_SLIDING), SLIDING_CAUSE,
-    "sliding takes {value} of the length in contact from what the bodies have in common, at most {bound} wanted: force or pressure wrong by about as much"));
+    "sliding takes {value} of the contact from what the bodies have in common, or to the contact beside it, at most {bound} wanted: force or pressure wrong by about as much"));
 
 /// `slip_at_ends`: share by which one body slides along another that goes on: the force stays, the pressure on that one lies
 /// elsewhere.

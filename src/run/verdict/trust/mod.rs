@@ -13,6 +13,7 @@ mod told;
 mod zones;
 
 pub(super) use beyond::slip_doubt;
+pub(super) use remedies::finer_mesh;
 
 use crate::case::Case;
 use crate::contact::{Pair, SegmentRule};

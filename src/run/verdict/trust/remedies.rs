@@ -14,8 +14,7 @@ const CUT: &str = "take quadrature = \"cut\"";
 impl Remedy {
     /// The words for a contact. `pair` is as it was solved: on a mesh that makes itself the segments are the program's own.
     pub fn words(self, pair: &Pair, case: &Case) -> String {
-        let finer =
-            format!("take mesh.refine = {}, or a mesh that is adapted, by [accuracy] with pressure = 1e-2", case.mesh.refine + 1);
+        let finer = finer_mesh(case, 1, "pressure");
         match self {
             Self::Words(words) => words.into(),
             Self::MoreSegments if pair.segments != SegmentRule::Auto => {
@@ -27,6 +26,16 @@ impl Remedy {
             Self::Stability => stability(pair, case).into(),
         }
     }
+}
+
+/// What makes a mesh finer that does not make itself: so many refinements more, or a goal. Steps and an accuracy exclude each other.
+pub fn finer_mesh(case: &Case, times: usize, goal: &str) -> String {
+    let adapted = if case.steps.is_empty() {
+        format!("a mesh that is adapted, by [accuracy] with {goal} = 1e-2")
+    } else {
+        format!("as mesh.file the adapted.msh of a run with --set steps={{}} --set accuracy.{goal}=1e-2")
+    };
+    format!("take mesh.refine = {}, or {adapted}", case.mesh.refine + times)
 }
 
 /// What mends a space too rich for the displacements; P1 has locked before its multipliers are too many.
