@@ -73,20 +73,25 @@ impl Part {
         let (columns, blocks) = (self.columns[row].as_chunks::<2>(), self.blocks_of(k).as_chunks::<2>());
         let zero = lanes.load([[0.0; 2]; 2]);
         let (mut one, mut other) = (zero, zero);
-        if let ([column], [block]) = (columns.1, blocks.1) {
-            one = lanes.multiply_add(lanes.load(*block), lanes.load([x[*column as usize]; 2]), one);
-        }
         let mut add_two = |(columns, blocks): (&[u32; 2], &[Block; 2])| {
             let [a, b] = columns.map(|column| lanes.load([x[column as usize]; 2]));
             one = lanes.multiply_add(lanes.load(blocks[0]), a, one);
             other = lanes.multiply_add(lanes.load(blocks[1]), b, other);
         };
+        let last = || match (columns.1, blocks.1) {
+            ([column], [block]) => lanes.multiply(lanes.load(*block), lanes.load([x[*column as usize]; 2])),
+            _ => zero,
+        };
         let twos = columns.0.iter().zip(blocks.0);
-        if BACKWARD {
-            twos.rev().for_each(&mut add_two)
+        let last = if BACKWARD {
+            let last = last();
+            twos.rev().for_each(&mut add_two);
+            last
         } else {
-            twos.for_each(&mut add_two)
-        }
+            twos.for_each(&mut add_two);
+            last()
+        };
+        let one = lanes.add(one, last);
         let [[a, b], [c, d]] = lanes.store(lanes.add(one, other));
         [sum[0] - (a + b), sum[1] - (c + d)]
     }

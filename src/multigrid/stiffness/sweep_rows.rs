@@ -1,9 +1,9 @@
 //! All rows of a level as a sweep reads them: where none of them lies inside of an even macro triangle.
 //!
-//! A sweep through many rows waits for memory, so their couplings are kept once more, in single precision, and each row is read
-//! in two halves: couplings with nodes that the sweep comes to earlier, and with those later. What a symmetric sweep's forward half
-//! finds of the first half stays: the backward half, and the residual behind it, need the other half alone. Of five times
-//! all blocks that two sweeps and a residual read (36 bytes each, with the column) three and a half are left (20 bytes each).
+//! A sweep through many rows waits for memory. The stiffness is symmetric, so the couplings of each row with later nodes are read
+//! alone: forward they take from these nodes, too, what the new value of the row does there, and what a symmetric sweep's forward half
+//! has found of earlier nodes stays for the backward half, and for the residual behind it. They are kept once more in single precision:
+//! of five times all blocks that two sweeps and a residual read (36 bytes each, with the column) two are left (20 bytes each).
 //! Functions of auxiliary levels may be nearly multiples of each other, so that energies are small differences: these levels are read in
 //! double precision.
 //!
@@ -25,9 +25,9 @@ const LEAST: f64 = 1e-6;
 
 /// Beside the rows of all nodes of a rank, in the order of the nodes, which is that of the sweep: their couplings as it reads them.
 pub struct SweepRows {
-    /// Where the diagonal block of each row lies among its couplings: earlier nodes stand before it.
-    diagonals: Vec<u32>,
-    /// Couplings with nodes of this rank, in the unit, in the places of their columns; none if they are read in double precision.
+    /// Where the couplings of each row with later nodes of this rank begin among those of all rows, and their number.
+    firsts: Vec<u32>,
+    /// These couplings, in the unit; none if they are read in double precision.
     blocks: Option<Vec<[f32; 4]>>,
     /// A power of two that brings the largest entry to the middle of the range of single precision.
     unit: f64,
@@ -43,10 +43,14 @@ pub struct SweepRows {
 
 /// A coupling as sweeps read it.
 trait SweepBlock: Copy {
+    /// Whether there are only those with later nodes.
+    const IS_HALF: bool;
     fn block(self) -> Block;
 }
 
 impl SweepBlock for Block {
+    const IS_HALF: bool = false;
+
     #[inline(always)]
     fn block(self) -> Block {
         self
@@ -54,6 +58,8 @@ impl SweepBlock for Block {
 }
 
 impl SweepBlock for [f32; 4] {
+    const IS_HALF: bool = true;
+
     #[inline(always)]
     fn block(self) -> Block {
         let [a, b, c, d] = self.map(f64::from);
@@ -77,10 +83,14 @@ impl SweepRows {
         // No coupling of a positive definite matrix is larger than both diagonal entries beside it.
         let diagonals = (0..count).map(|k| rows.diagonal(k));
         let largest = diagonals.fold(0.0_f64, |largest, block| largest.max(block[0][0]).max(block[1][1]));
-        let place = |k: usize| rows.near.columns[rows.near.row(k)].partition_point(|&column| column < k as u32);
+        let mut firsts = vec![0];
+        for k in 0..count {
+            let columns = &rows.near.columns[rows.near.row(k)];
+            firsts.push(firsts[k] + columns.iter().filter(|&&column| column > k as u32).count() as u32);
+        }
         let mut sweep = Self {
-            diagonals: (0..count).map(|k| (rows.near.row(k).start + place(k)) as u32).collect(),
-            blocks: is_single.then(|| vec![[0.0; 4]; rows.near.columns.len()]),
+            blocks: is_single.then(|| vec![[0.0; 4]; firsts[count] as usize]),
+            firsts,
             unit: if is_single && largest > 0.0 { largest.log2().floor().exp2() } else { 1.0 },
             inverses: vec![[[0.0; 2]; 2]; count],
             far: (0..count as u32).filter(|&k| rows.needs_far(k as usize)).collect(),
@@ -98,17 +108,20 @@ impl SweepRows {
             return changed.for_each(|k| self.inverses[k] = *rows.inverse(k));
         };
         for k in changed {
-            let places = rows.near.row(k);
-            let mut diagonal = [0.0; 4];
-            for (kept, (_, [[a, b], [c, d]])) in blocks[places.clone()].iter_mut().zip(rows.near.couplings(k)) {
-                let values = [*a, *b, *c, *d];
-                *kept = values.map(|value| (value * scale) as f32);
-                (0..4).for_each(|at| diagonal[at] += values[at] - f64::from(kept[at]) * self.unit);
-            }
+            let later = self.firsts[k] as usize..self.firsts[k + 1] as usize;
+            let single = |[[a, b], [c, d]]: &Block| [*a, *b, *c, *d].map(|value| (value * scale) as f32);
+            let couplings = || rows.near.couplings(k);
+            couplings()
+                .skip(rows.near.row(k).len() - later.len())
+                .zip(&mut blocks[later])
+                .for_each(|((_, of), kept)| *kept = single(of));
             // Its own block is not rounded.
-            let own = blocks[self.diagonals[k] as usize];
-            let [a, b, c, d] = std::array::from_fn(|at| diagonal[at] + f64::from(own[at]) * self.unit);
-            self.inverses[k] = inverse(&[[a, b], [c, d]]).expect("a stiffness has a diagonal");
+            let mut diagonal = *rows.diagonal(k);
+            for (_, block) in couplings().filter(|(column, _)| *column != k as u32) {
+                let rounded = single(block).map(f64::from);
+                (0..4).for_each(|at| diagonal[at / 2][at % 2] += block[at / 2][at % 2] - rounded[at] * self.unit);
+            }
+            self.inverses[k] = inverse(&diagonal).expect("a stiffness has a diagonal");
         }
     }
 
@@ -145,28 +158,48 @@ impl SweepRows {
     }
 
     fn work(&mut self, near: &Part, task: SweepTask) {
-        match self.blocks.take() {
-            Some(blocks) => {
-                on_rows(OnSweepRows { rows: self, near, blocks: &blocks, task });
-                self.blocks = Some(blocks);
-            }
-            None => on_rows(OnSweepRows { rows: self, near, blocks: &near.blocks, task }),
+        let mut sums = std::mem::take(&mut self.sums);
+        match &self.blocks {
+            Some(blocks) => on_rows(OnSweepRows { rows: self.halves(near, blocks), sums: &mut sums, task }),
+            None => on_rows(OnSweepRows { rows: self.halves(near, &near.blocks), sums: &mut sums, task }),
         }
+        self.sums = sums;
     }
 
-    /// `sum - Σ K x` over the couplings of row `k` with earlier nodes, or with later ones.
+    fn halves<'a, B>(&'a self, Part { starts, columns, .. }: &'a Part, blocks: &'a [B]) -> HalfRows<'a, B> {
+        HalfRows { starts, columns, firsts: &self.firsts, blocks, unit: self.unit, inverses: &self.inverses }
+    }
+}
+
+/// The rows as a kernel reads them.
+struct HalfRows<'a, B> {
+    /// Where the columns of each row begin, and their number.
+    starts: &'a [u32],
+    columns: &'a [u32],
+    firsts: &'a [u32],
+    blocks: &'a [B],
+    unit: f64,
+    inverses: &'a [Block],
+}
+
+impl<'a, B: SweepBlock> HalfRows<'a, B> {
+    /// Couplings of row `k` with later nodes: their columns and blocks.
     #[inline(always)]
-    fn subtract<L: Lanes<Nodes = [[f64; 2]; 2]>, B: SweepBlock, const LATER: bool>(
+    fn later(&self, k: usize) -> (&'a [u32], &'a [B]) {
+        let (end, own) = (self.starts[k + 1] as usize, self.firsts[k] as usize..self.firsts[k + 1] as usize);
+        let columns = end - own.len()..end;
+        (&self.columns[columns.clone()], &self.blocks[if B::IS_HALF { own } else { columns }])
+    }
+
+    /// `sum - Σ K x` over couplings with later nodes.
+    #[inline(always)]
+    fn subtract<L: Lanes<Nodes = [[f64; 2]; 2]>>(
         &self,
         lanes: L,
-        (near, blocks): (&Part, &[B]),
-        k: usize,
+        (columns, blocks): (&[u32], &[B]),
         sum: [f64; 2],
         x: &[[f64; 2]],
     ) -> [f64; 2] {
-        let (all, own) = (near.row(k), self.diagonals[k] as usize);
-        let half = if LATER { own + 1..all.end } else { all.start..own };
-        let (columns, blocks) = (&near.columns[half.clone()], &blocks[half]);
         let block = |block: B| lanes.load(block.block());
         let zero = lanes.load([[0.0; 2]; 2]);
         let (mut one, mut other) = (zero, zero);
@@ -181,6 +214,24 @@ impl SweepRows {
         }
         let [[a, b], [c, d]] = lanes.store(lanes.add(one, other));
         [sum[0] - self.unit * (a + b), sum[1] - self.unit * (c + d)]
+    }
+
+    /// Subtracts from the sums of later nodes what the value of a row does there.
+    #[inline(always)]
+    fn spread<L: Lanes<Nodes = [[f64; 2]; 2]>>(
+        &self,
+        lanes: L,
+        (columns, blocks): (&[u32], &[B]),
+        [u, v]: [f64; 2],
+        sums: &mut [[f64; 2]],
+    ) {
+        let (u, v) = (self.unit * u, self.unit * v);
+        let x = lanes.load([[u, u], [v, v]]);
+        for (column, block) in columns.iter().zip(blocks) {
+            let [[a, b], [c, d]] = lanes.store(lanes.multiply(lanes.load(block.block()), x));
+            let sum = &mut sums[*column as usize];
+            *sum = [sum[0] - (a + c), sum[1] - (b + d)];
+        }
     }
 
     /// The value at which the forces `sum` on a node vanish.
@@ -213,46 +264,44 @@ enum SweepTask<'a> {
     },
 }
 
-/// A task with the rows that it works on, and their columns.
+/// A task with the rows that it works on.
 struct OnSweepRows<'a, B> {
-    rows: &'a mut SweepRows,
-    near: &'a Part,
-    blocks: &'a [B],
+    rows: HalfRows<'a, B>,
+    sums: &'a mut [[f64; 2]],
     task: SweepTask<'a>,
 }
 
 impl<B: SweepBlock> RowWork for OnSweepRows<'_, B> {
     #[inline(always)]
     fn work<L: Lanes<Nodes = [[f64; 2]; 2]>>(self, lanes: L) {
-        let Self { rows, near, blocks, task } = self;
-        let near = (near, blocks);
-        let count = rows.sums.len();
+        let Self { rows, sums, task } = self;
         match task {
             SweepTask::Forward { x } => {
-                for k in 0..count {
-                    rows.sums[k] = rows.subtract::<L, B, false>(lanes, near, k, rows.sums[k], x);
-                    x[k] = rows.solved(k, rows.subtract::<L, B, true>(lanes, near, k, rows.sums[k], x));
+                for k in 0..sums.len() {
+                    x[k] = rows.solved(k, rows.subtract(lanes, rows.later(k), sums[k], x));
+                    rows.spread(lanes, rows.later(k), x[k], sums);
                 }
             }
             SweepTask::FromZero { x } => {
-                for k in 0..count {
-                    x[k] = rows.solved(k, rows.subtract::<L, B, false>(lanes, near, k, rows.sums[k], x));
+                for k in 0..sums.len() {
+                    x[k] = rows.solved(k, sums[k]);
+                    rows.spread(lanes, rows.later(k), x[k], sums);
                 }
             }
             SweepTask::Backward { x } => {
-                for k in (0..count).rev() {
-                    x[k] = rows.solved(k, rows.subtract::<L, B, true>(lanes, near, k, rows.sums[k], x));
+                for k in (0..sums.len()).rev() {
+                    x[k] = rows.solved(k, rows.subtract(lanes, rows.later(k), sums[k], x));
                 }
             }
             SweepTask::BehindBoth { x, r } => {
-                for (k, (r, sum)) in r.iter_mut().zip(&rows.sums).enumerate() {
-                    let [first, second] = rows.subtract::<L, B, false>(lanes, near, k, *r, x);
-                    *r = [first - sum[0], second - sum[1]];
+                for (k, sum) in sums.iter().enumerate() {
+                    r[k] = [r[k][0] - sum[0], r[k][1] - sum[1]];
+                    rows.spread(lanes, rows.later(k), x[k], r);
                 }
             }
             SweepTask::BehindForward { x, r } => {
                 for (k, r) in r.iter_mut().enumerate() {
-                    *r = rows.subtract::<L, B, true>(lanes, near, k, *r, x);
+                    *r = rows.subtract(lanes, rows.later(k), *r, x);
                 }
             }
         }
@@ -349,13 +398,19 @@ mod tests {
     fn a_translation_keeps_its_forces_to_the_last_digit() {
         for (rows, _) in all_rows() {
             let sweep = SweepRows::new(&rows, true);
+            let halves = sweep.halves(&rows.near, sweep.blocks.as_ref().expect("single precision"));
+            let mut sums: Vec<Block> = sweep.inverses.iter().map(|own| inverse(own).expect("an inverse has one")).collect();
             for k in 0..rows.nodes.len() {
-                let mut sum = inverse(&sweep.inverses[k]).expect("an inverse has one");
-                for place in rows.near.row(k).filter(|&place| place != sweep.diagonals[k] as usize) {
-                    (0..4).for_each(|at| {
-                        sum[at / 2][at % 2] += f64::from(sweep.blocks.as_ref().expect("single precision")[place][at]) * sweep.unit
-                    });
+                let (columns, blocks) = halves.later(k);
+                for (&column, block) in columns.iter().zip(blocks) {
+                    for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                        let value = f64::from(block[2 * a + b]) * sweep.unit;
+                        sums[k][a][b] += value;
+                        sums[column as usize][b][a] += value;
+                    }
                 }
+            }
+            for (k, sum) in sums.iter().enumerate() {
                 let size = rows.diagonal(k).as_flattened().iter().fold(0.0_f64, |size, v| size.max(v.abs()));
                 let exact = rows
                     .near

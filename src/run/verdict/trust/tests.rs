@@ -95,7 +95,7 @@ fn sliding_is_doubted_where_a_body_ends() {
         end_doubt(&ContactSummary { slip_at_ends, lost_at_ends, ..ContactSummary::default() }).map(|doubt| doubt.figure)
     };
     assert_eq!((told(None, None), told(Some(0.05), Some(0.01))), (None, None));
-    assert!(told(Some(0.6), Some(0.4)).is_some_and(|words| words.starts_with("sliding takes 0.40 of the length in contact")));
+    assert!(told(Some(0.6), Some(0.4)).is_some_and(|words| words.starts_with("sliding takes 0.40 of the contact")));
     assert!(told(Some(0.6), Some(0.0)).is_some_and(|words| words.contains("slides along the other by 0.60")));
 }
 
