@@ -41,3 +41,32 @@ pub fn jacobian<const N: usize>(nodes: &[Point; N], l: [f64; 3]) -> Result<([Poi
     let gradients = reference.map(|[r, s]| Point::new((d * r - c * s) / determinant, (a * s - b * r) / determinant));
     Ok((gradients, determinant))
 }
+
+/// The map from the reference triangle to one of the mesh at several of its points: that of a straight triangle is the same everywhere.
+pub struct TriangleMap<'a, const N: usize> {
+    nodes: &'a [Point; N],
+    /// Gradients of the reference coordinates and the Jacobian determinant, if the triangle is straight.
+    straight: Option<([Point; 2], f64)>,
+}
+
+impl<'a, const N: usize> TriangleMap<'a, N> {
+    /// Of a triangle, with its midsides in the middles of its sides where it is straight.
+    ///
+    /// # Errors
+    /// As [`jacobian`].
+    pub fn new(nodes: &'a [Point; N], is_straight: bool) -> Result<Self, BadJacobian> {
+        let of_corners = || jacobian(&[nodes[0], nodes[1], nodes[2]], [1.0, 0.0, 0.0]);
+        let straight = is_straight.then(of_corners).transpose()?.map(|([_, xi, eta], determinant)| ([xi, eta], determinant));
+        Ok(Self { nodes, straight })
+    }
+
+    /// As [`jacobian`].
+    ///
+    /// # Errors
+    /// Likewise.
+    #[inline]
+    pub fn at(&self, l: [f64; 3]) -> Result<([Point; N], f64), BadJacobian> {
+        let Some(([xi, eta], determinant)) = self.straight else { return jacobian(self.nodes, l) };
+        Ok((slopes::<N>(l).map(|[r, s]| xi * r + eta * s), determinant))
+    }
+}

@@ -1,6 +1,6 @@
 //! Stiffness and stress of one triangle, straight or isoparametric.
 
-use super::map::{BadJacobian, Block, jacobian, place_of};
+use super::map::{BadJacobian, Block, TriangleMap, jacobian, place_of};
 use super::plane_law::{Heat, Plane, PlaneLaw, Strain};
 use super::revolution;
 use crate::geometry::Point;
@@ -83,8 +83,9 @@ pub fn stiffness<const N: usize>(nodes: &[Point; N], law: &PlaneLaw, straight: b
         return revolution::stiffness(nodes, law);
     }
     let mut k = [[[[0.0; 2]; 2]; N]; N];
+    let map = TriangleMap::new(nodes, straight)?;
     for &(l, weight) in stiffness_rule::<N>(straight) {
-        let (gradients, determinant) = jacobian(nodes, l)?;
+        let (gradients, determinant) = map.at(l)?;
         let (lambda, mu) = (0.5 * weight * determinant * law.lambda, 0.5 * weight * determinant * law.mu);
         for (row, a) in k.iter_mut().zip(&gradients) {
             for (block, b) in row.iter_mut().zip(&gradients) {
@@ -117,8 +118,9 @@ pub fn internal_forces<const N: usize>(
         }
         return Ok(forces);
     }
+    let map = TriangleMap::new(nodes, straight)?;
     for &(l, weight) in stiffness_rule::<N>(straight) {
-        let (gradients, determinant) = jacobian(nodes, l)?;
+        let (gradients, determinant) = map.at(l)?;
         let gradient = u.iter().zip(&gradients).fold(Matrix2::zeros(), |sum, (u, g)| sum + u * g.transpose());
         let [xx, yy, xy, _] = law.stress(&Strain { gradient, hoop: 0.0 }).map(|stress| 0.5 * weight * determinant * stress);
         for (force, g) in forces.iter_mut().zip(&gradients) {

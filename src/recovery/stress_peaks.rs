@@ -9,7 +9,7 @@ use crate::element::von_mises;
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, Spot, lattice};
 use crate::petsc::Session;
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Of stresses that differ by a smaller share of the largest the first one in a direction counts, so that rounding does not choose
 /// between the two sides of a symmetric body.
@@ -139,7 +139,7 @@ impl Evaluation<'_> {
     fn concentrated_stresses(&self, places: &[SingularPlace], stress: &NodalStress) -> Vec<f64> {
         let (mesh, numbering) = (&self.problem.scene.mesh, &self.problem.finest().numbering);
         let at_vertex = |(at, place): (usize, &SingularPlace)| Some((place.vertex?, at));
-        let places_at: HashMap<u32, usize> = places.iter().enumerate().filter_map(at_vertex).collect();
+        let places_at: FxHashMap<u32, usize> = places.iter().enumerate().filter_map(at_vertex).collect();
         let n = numbering.level.intervals;
         let away = (2 * numbering.level.order.degree()).min(n);
         // The stress there, and the largest one two edges away.
@@ -162,8 +162,8 @@ impl Evaluation<'_> {
 }
 
 /// Which places touch which parts: those that are vertices of them.
-fn touching(mesh: &MacroMesh, places: &[SingularPlace]) -> HashSet<(usize, u32)> {
-    let mut at_vertex: HashMap<u32, Vec<usize>> = HashMap::new();
+fn touching(mesh: &MacroMesh, places: &[SingularPlace]) -> FxHashSet<(usize, u32)> {
+    let mut at_vertex: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
     let vertices = places.iter().enumerate().filter_map(|(at, place)| Some((place.vertex?, at)));
     vertices.for_each(|(vertex, at)| at_vertex.entry(vertex).or_default().push(at));
     let corners = mesh.triangles.iter().flat_map(|triangle| triangle.vertices.map(|vertex| (vertex, triangle.part)));
@@ -230,7 +230,11 @@ fn at_point(problem: &Discretisation, spot: &Spot) -> Option<SingularPlace> {
 
 /// The ends of a contact up to which bodies press with a pressure that has no bound, for each of its bodies: where a corner of one
 /// presses on the other, and where λ `grows`. `angles` are those of the bodies at the vertices of their boundaries (radians).
-fn contact_ends((mesh, angles): (&MacroMesh, &HashMap<u32, f64>), pressure: &ContactPressure, grows: bool) -> Vec<SingularPlace> {
+fn contact_ends(
+    (mesh, angles): (&MacroMesh, &FxHashMap<u32, f64>),
+    pressure: &ContactPressure,
+    grows: bool,
+) -> Vec<SingularPlace> {
     let (contact, zones) = (pressure.contact, pressure.zones());
     let (knots, last) = (contact.boundary.knots(), contact.boundary.segments() - 1);
     let why = |end: usize| {
@@ -256,7 +260,7 @@ fn contact_ends((mesh, angles): (&MacroMesh, &HashMap<u32, f64>), pressure: &Con
 }
 
 /// Whether one body of a contact has a corner at an end of Γ_C, and the other has none: nearest to it on both boundaries.
-fn one_turns((mesh, angles): (&MacroMesh, &HashMap<u32, f64>), contact: &Contact, knot: f64) -> bool {
+fn one_turns((mesh, angles): (&MacroMesh, &FxHashMap<u32, f64>), contact: &Contact, knot: f64) -> bool {
     let here = contact.boundary.point(knot);
     let turns = contact.pair.between.each_ref().map(|name| {
         let edges = mesh.boundary(name)?.edges.iter();

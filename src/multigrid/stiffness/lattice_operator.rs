@@ -136,8 +136,7 @@ impl LatticeOperator {
     /// The rows as sweeps read them, if all of this rank's are stored.
     pub fn sweep_rows(&self) -> Option<SweepRows> {
         let rows = self.rows.borrow();
-        let is_single = !self.is_product && SweepRows::can_be_single(&rows);
-        (rows.nodes.len() == self.own.len() && (is_single || rows.near.is_unshared())).then(|| SweepRows::new(&rows, is_single))
+        if rows.nodes.len() < self.own.len() { None } else { SweepRows::new(&rows, !self.is_product) }
     }
 
     /// All rows: those of even macro triangles with the `stored` ones.

@@ -68,25 +68,23 @@ impl SweepBlock for [f32; 4] {
 }
 
 impl SweepRows {
-    /// Whether no node is held much more firmly in one direction than in another.
-    pub fn can_be_single(rows: &StoredRows) -> bool {
-        let is_even = |[[a, b], [c, d]]: &Block| {
-            let (trace, half) = (a + d, b / (a + d));
-            (a / trace) * (d / trace) - half * (c / trace) > LEAST
-        };
-        (0..rows.nodes.len()).all(|k| is_even(rows.diagonal(k)))
-    }
-
-    /// Of rows that are those of all nodes of this rank; they share nothing if they are not read in single precision.
-    pub fn new(rows: &StoredRows, is_single: bool) -> Self {
+    /// Of rows that are those of all nodes of this rank, in single precision if they may be and no node is held much more firmly in one
+    /// direction than in another; nothing if they are to be read in double precision and share blocks.
+    pub fn new(rows: &StoredRows, may_be_single: bool) -> Option<Self> {
         let count = rows.nodes.len();
-        // No coupling of a positive definite matrix is larger than both diagonal entries beside it.
-        let diagonals = (0..count).map(|k| rows.diagonal(k));
-        let largest = diagonals.fold(0.0_f64, |largest, block| largest.max(block[0][0]).max(block[1][1]));
-        let mut firsts = vec![0];
+        let (mut firsts, mut largest, mut is_single) = (Vec::with_capacity(count + 1), 0.0_f64, may_be_single);
+        firsts.push(0);
         for k in 0..count {
             let columns = &rows.near.columns[rows.near.row(k)];
-            firsts.push(firsts[k] + columns.iter().filter(|&&column| column > k as u32).count() as u32);
+            let later = columns.iter().filter(|&&column| column > k as u32).count();
+            firsts.push(firsts[k] + later as u32);
+            let own = &rows.near.blocks_of(k)[columns.len() - later - 1];
+            // No coupling of a positive definite matrix is larger than both diagonal entries beside it.
+            largest = largest.max(own[0][0]).max(own[1][1]);
+            is_single &= is_even(own);
+        }
+        if !is_single && !rows.near.is_unshared() {
+            return None;
         }
         let mut sweep = Self {
             blocks: is_single.then(|| vec![[0.0; 4]; firsts[count] as usize]),
@@ -98,7 +96,7 @@ impl SweepRows {
             is_whole: false,
         };
         sweep.refresh(rows, 0..count);
-        sweep
+        Some(sweep)
     }
 
     /// Takes over the values of some rows.
@@ -107,17 +105,15 @@ impl SweepRows {
         let Some(blocks) = &mut self.blocks else {
             return changed.for_each(|k| self.inverses[k] = *rows.inverse(k));
         };
+        let single = |[[a, b], [c, d]]: &Block| [*a, *b, *c, *d].map(|value| (value * scale) as f32);
         for k in changed {
             let later = self.firsts[k] as usize..self.firsts[k + 1] as usize;
-            let single = |[[a, b], [c, d]]: &Block| [*a, *b, *c, *d].map(|value| (value * scale) as f32);
-            let couplings = || rows.near.couplings(k);
-            couplings()
-                .skip(rows.near.row(k).len() - later.len())
-                .zip(&mut blocks[later])
-                .for_each(|((_, of), kept)| *kept = single(of));
+            let (others, all) = rows.near.blocks_of(k).split_at(rows.near.row(k).len() - later.len() - 1);
+            let (own, following) = all.split_first().expect("its own block");
+            following.iter().zip(&mut blocks[later]).for_each(|(block, kept)| *kept = single(block));
             // Its own block is not rounded.
-            let mut diagonal = *rows.diagonal(k);
-            for (_, block) in couplings().filter(|(column, _)| *column != k as u32) {
+            let mut diagonal = *own;
+            for block in others.iter().chain(following) {
                 let rounded = single(block).map(f64::from);
                 (0..4).for_each(|at| diagonal[at / 2][at % 2] += block[at / 2][at % 2] - rounded[at] * self.unit);
             }
@@ -169,6 +165,12 @@ impl SweepRows {
     fn halves<'a, B>(&'a self, Part { starts, columns, .. }: &'a Part, blocks: &'a [B]) -> HalfRows<'a, B> {
         HalfRows { starts, columns, firsts: &self.firsts, blocks, unit: self.unit, inverses: &self.inverses }
     }
+}
+
+/// Whether a node with this diagonal block is not held much more firmly in one direction than in another.
+fn is_even([[a, b], [c, d]]: &Block) -> bool {
+    let (trace, half) = (a + d, b / (a + d));
+    (a / trace) * (d / trace) - half * (c / trace) > LEAST
 }
 
 /// The rows as a kernel reads them.
@@ -365,7 +367,7 @@ mod tests {
     fn sweeps_and_residuals_are_those_of_the_rows_to_their_precision() {
         let mut with_others = 0;
         for ((rows, others), is_single) in all_rows().into_iter().flat_map(|rows| [(rows.clone(), true), (rows, false)]) {
-            let (count, mut sweep) = (rows.nodes.len(), SweepRows::new(&rows, is_single));
+            let (count, mut sweep) = (rows.nodes.len(), SweepRows::new(&rows, is_single).expect("they share nothing"));
             let check = |found: &[[f64; 2]], exact: &[[f64; 2]], size: f64| {
                 check(found, exact, size, if is_single { 1e-5 } else { 1e-13 })
             };
@@ -397,7 +399,7 @@ mod tests {
     #[test]
     fn a_translation_keeps_its_forces_to_the_last_digit() {
         for (rows, _) in all_rows() {
-            let sweep = SweepRows::new(&rows, true);
+            let sweep = SweepRows::new(&rows, true).expect("rows of all nodes");
             let halves = sweep.halves(&rows.near, sweep.blocks.as_ref().expect("single precision"));
             let mut sums: Vec<Block> = sweep.inverses.iter().map(|own| inverse(own).expect("an inverse has one")).collect();
             for k in 0..rows.nodes.len() {
@@ -427,7 +429,7 @@ mod tests {
             let (mut rows, others) = all_rows().swap_remove(0);
             rows.near.blocks.as_flattened_mut().as_flattened_mut().iter_mut().for_each(|value| *value *= factor);
             (0..rows.nodes.len()).for_each(|k| rows.invert(k));
-            let (count, mut sweep) = (rows.nodes.len(), SweepRows::new(&rows, true));
+            let (count, mut sweep) = (rows.nodes.len(), SweepRows::new(&rows, true).expect("rows of all nodes"));
             let b: Vec<[f64; 2]> = vector(count, 3).into_iter().map(|b| b.map(|b| b * factor)).collect();
             // A support under one node, much stiffer than the body.
             let (changed, stiff) = (count / 2, 1e3 * factor);
@@ -440,11 +442,12 @@ mod tests {
             rows.backward(0..count, &b, &mut exact, &far);
             check(&x, &exact, largest(&exact), 1e-5);
             assert!(largest(&x[changed..=changed]) < 0.05 * largest(&x), "it is held");
-            assert!(SweepRows::can_be_single(&rows));
+            assert!(SweepRows::new(&rows, true).is_some_and(|sweep| sweep.blocks.is_some()));
             // Springs along an inclined line.
             let spring = 1e8 * rows.diagonal(0)[0][0];
             rows.add(0, BlockColumn::Near(0), &[[0.36 * spring, 0.48 * spring], [0.48 * spring, 0.64 * spring]]);
-            assert!(!SweepRows::can_be_single(&rows), "single precision would lose the body beside the spring");
+            let sweep = SweepRows::new(&rows, true).expect("they share nothing");
+            assert!(sweep.blocks.is_none(), "single precision would lose the body beside the spring");
         }
     }
 }
