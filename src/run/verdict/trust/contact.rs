@@ -1,11 +1,12 @@
 //! The verdict on one contact.
 
 use super::beyond::doubts_beyond;
+use super::remedies::CUT;
 use super::told::{Objection, Verdict};
 use super::zones::{is_proved, overlaps, unknown_of, zone_doubts};
 use crate::accuracy::share_of_nothing;
 use crate::case::Case;
-use crate::contact::Pair;
+use crate::contact::{Pair, Quadrature};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
 use crate::run::verdict::limits::{CORNERS, Doubt, ENERGY, FORCE, INF_SUP, OSCILLATION, Remedy, TRUSTED_FORCE};
@@ -43,7 +44,8 @@ pub fn verdict(summary: &Summary, contact: &ContactSummary, pair: &Pair, case: &
     let trust_force = trust_force.map(|trust| trust && beyond.is_empty());
     doubts.extend(beyond);
     doubts.extend(corner_doubt(contact, &pair.between).filter(|_| carries));
-    let unknown = unknown_of(contact, trust_force, Remedy::MoreSegments.words(pair, case)).filter(|_| carries);
+    let unknown = uncut(pair).or_else(|| unknown_of(contact, trust_force, Remedy::MoreSegments.words(pair, case)));
+    let unknown = unknown.filter(|_| carries);
     let trust = if doubts.is_empty() { unknown.is_none().then_some(true) } else { Some(false) };
     let idle = idle.or_else(|| (contact.force == Some(0.0) && contact.zones.is_empty()).then(|| NOTHING_PRESSES.into()));
     Verdict { unknown, trust, trust_force, idle, ..Verdict::of(doubts, pair, case) }
@@ -73,6 +75,12 @@ fn stability_doubts(contact: &ContactSummary) -> Vec<Doubt> {
     let harmless = contact.zones.iter().filter(|zone| zone.counts(&contact.zones)).all(|zone| is_proved(zone.lambda));
     let figures = [(&INF_SUP, contact.inf_sup), (&OSCILLATION, contact.oscillation.filter(|_| !harmless))];
     figures.into_iter().filter_map(|(limit, value)| limit.judge(value, &[("segment", &segment)])).collect()
+}
+
+/// What no difference of meshes tells where integrals are not cut at the nodes: λ was off by 1 to 9 % then.
+fn uncut(pair: &Pair) -> Option<Objection> {
+    let cause = "its integrals are not cut at the nodes, which moves λ by per cents on any mesh";
+    (pair.quadrature != Quadrature::Cut).then(|| Objection { cause, words: cause.into(), remedy: Some(CUT.into()) })
 }
 
 /// What tells that bodies press with corners that the smooth contact boundary has not.

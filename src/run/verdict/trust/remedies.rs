@@ -8,8 +8,8 @@ use crate::run::verdict::limits::{P1_STIFF, Remedy};
 /// What mends it where the mesh makes itself.
 const LESS_ERROR: &str = "ask for a smaller error, of pressure too, or allow more unknowns";
 
-/// What keeps it from becoming better there, however fine the mesh is.
-const CUT: &str = "take quadrature = \"cut\"";
+/// What makes λ exact where it is not so on any mesh.
+pub const CUT: &str = "take quadrature = \"cut\"";
 
 impl Remedy {
     /// The words for a contact. `pair` is as it was solved: on a mesh that makes itself the segments are the program's own.

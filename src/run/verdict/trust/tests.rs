@@ -257,6 +257,8 @@ fn advice_names_nothing_that_an_accuracy_overrides() {
     let (.., with) = judged(true, rough, &[given, "accuracy=1e-3"]);
     assert!(with.contains("ask for a smaller error"), "{with}");
     assert!(!with.contains("segments (") && !with.contains("more segments") && !with.contains(FINER), "{with}");
+    let (trust, force, _) = judged(true, |_| (), &["contact.seam.quadrature=segment"]);
+    assert_eq!((trust, force), (None, Some(true)), "no mesh tells what its integrals miss");
     let (.., sampled) = judged(true, rough, &[given, "accuracy=1e-3", "contact.seam.quadrature=segment"]);
     assert!(sampled.contains("take quadrature = \"cut\"") && !sampled.contains("ask for"), "{sampled}");
 }
