@@ -172,7 +172,8 @@ mod tests {
         for (slip, settings) in [(0.01, &[][..]), (1.4, &["contact.seam.configuration=deformed"])] {
             assert!(told(slip, settings).contains("by [accuracy] with force"), "{}", told(slip, settings));
         }
-        let stepped = ["steps.up.factors=[0.5, 1.0]", "steps.up.scales=[\"gravity\"]", "gravity=[0.0, -1.0]"];
+        const LOADED: &str = "load.top={ on = \"top\", pressure = 1.0 }";
+        let stepped = ["steps.up.factors=[0.5, 1.0]", "steps.up.scales=[\"load.top\"]", LOADED];
         assert!(told(0.01, &stepped).contains("--set steps={} --set accuracy.force"), "{}", told(0.01, &stepped));
     }
 }
