@@ -1,7 +1,8 @@
 //! Contact boundaries that follow the solution: fit, solve, move, and fit again, until everything stands.
 
 use super::ends::{FoundEnd, ends_by_force, ends_of_a_part, free_ends};
-use super::rest::{BoundaryStep, HELD, MOST_BOUNDARIES, MOST_HELD, left_to_the_mesh, moves, way};
+use super::rest::{BoundaryStep, HELD, MOST_BOUNDARIES, MOST_HELD, left_to_the_mesh, most_left, moves, way};
+use crate::accuracy::{Accuracy, share_of_nothing};
 use crate::contact::{Configuration, Known, SmoothSide};
 use crate::discretisation::{BoundaryMotion, Contact, Discretisation, Solution, SystemError};
 use crate::geometry::Point;
@@ -64,14 +65,16 @@ pub struct Following {
     widest: Vec<[f64; 2]>,
     /// Share of the largest force of all contacts below which one only touches: where it lies is no matter.
     nothing: f64,
+    /// Share of its length by which a boundary may be left to move.
+    most_left: f64,
     /// Ends of all boundaries, as the last solution has them.
     pub found: Vec<[Point; 2]>,
 }
 
 impl Following {
     /// Before the first solve; the last one goes to `tolerance`. Boundaries that a coarser mesh has found are `settled`; contacts that
-    /// carry less than the share `nothing` of the largest force may lie anywhere.
-    pub fn new(problem: &Discretisation, tolerance: f64, settled: bool, is_last: bool, nothing: f64) -> Self {
+    /// carry less of the largest force than the errors that are `asked` for may lie anywhere.
+    pub fn new(problem: &Discretisation, tolerance: f64, settled: bool, is_last: bool, asked: Option<&Accuracy>) -> Self {
         Self {
             most: if is_last { MOST_BOUNDARIES } else { MOST_ON_THE_WAY },
             frozen: if settled { 1 } else { FROZEN },
@@ -81,7 +84,8 @@ impl Following {
             ends: vec![[None; 2]; problem.contacts.len()],
             last_way: 0.0,
             widest: vec![[f64::INFINITY, f64::NEG_INFINITY]; problem.contacts.len()],
-            nothing,
+            nothing: share_of_nothing(asked),
+            most_left: most_left(asked),
             found: Vec::new(),
         }
     }
@@ -125,7 +129,7 @@ impl Following {
         // the usual tolerance gets it.
         let is_deformed = problem.contacts.iter().any(|contact| contact.pair.configuration == Configuration::Deformed);
         let may_be_left = (!is_deformed || du.is_some_and(|du| du <= MOST_STILL)) && self.tolerance >= USUAL;
-        let left = left_to_the_mesh(&pairs, still_boundary).filter(|_| may_be_left);
+        let left = left_to_the_mesh(&pairs, self.most_left, still_boundary).filter(|_| may_be_left);
         let next_boundary = match moved {
             // The same boundary has the same solution.
             Some(0.0) => self.beyond(problem, solution, &motion, None),

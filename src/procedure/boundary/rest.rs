@@ -1,6 +1,7 @@
 //! Whether contact boundaries have come to rest: how far they moved, and how far the mesh lets that be told.
 
 use super::ends::OF_A_SEGMENT;
+use crate::accuracy::{Accuracy, Goal, Quantity, share_of_nothing};
 use crate::contact::Configuration;
 use crate::discretisation::Contact;
 use crate::procedure::ending::{Failure, HeldEnds, Standing};
@@ -22,6 +23,9 @@ const OWN_ERROR: f64 = 0.45;
 /// Share of the length that ends may be left to move, however coarse the mesh is: force and peak feel the square of it.
 const MOST_LEFT: f64 = 1.6e-3;
 
+/// That share by the root of the error that is asked for, where it is of forces and energies alone: its square is a fortieth of the error.
+const LEFT_BY_ROOT: f64 = 0.16;
+
 /// One boundary of the loop, in figures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryStep {
@@ -38,23 +42,30 @@ pub struct BoundaryStep {
     pub flipped: Option<usize>,
 }
 
+/// Share of the length that ends may be left to move, for what is asked for.
+pub fn most_left(asked: Option<&Accuracy>) -> f64 {
+    let is_whole = |goal: &Goal| matches!(goal.quantity, Quantity::Energy | Quantity::Force(_));
+    let by_root = |_| MOST_LEFT.max(LEFT_BY_ROOT * share_of_nothing(asked).sqrt());
+    asked.filter(|asked| asked.goals.iter().all(is_whole)).map_or(MOST_LEFT, by_root)
+}
+
 /// By how much the ends of the boundaries would still move, as a share of the length, if that is less than they are exact
-/// for: by their way since the coarser mesh and the segments beside them, or by what is `still`.
-pub fn left_to_the_mesh(contacts: &[[&Contact; 2]], still: f64) -> Option<f64> {
-    let mut most: f64 = 0.0;
+/// for: by their way since the coarser mesh and the segments beside them, `most` at most, or by what is `still`.
+pub fn left_to_the_mesh(contacts: &[[&Contact; 2]], most: f64, still: f64) -> Option<f64> {
+    let mut left: f64 = 0.0;
     for [old, new] in contacts {
         let (boundary, last) = (&old.boundary, old.boundary.segments() - 1);
         let (now, next, coarser) = (old.ends(), new.ends(), new.known.coarser?);
         for (k, segment) in [0, last].into_iter().enumerate() {
             let (way, since) = ((next[k] - now[k]).norm(), (next[k] - coarser[k]).norm());
             let own = (OWN_ERROR * since).max(OF_A_SEGMENT * boundary.segment_length(segment));
-            if way > own.min(MOST_LEFT * boundary.length()).max(still * boundary.length()) {
+            if way > own.min(most * boundary.length()).max(still * boundary.length()) {
                 return None;
             }
-            most = most.max(way / boundary.length());
+            left = left.max(way / boundary.length());
         }
     }
-    Some(most)
+    Some(left)
 }
 
 /// Largest way of a segment end between two placings of some contacts, relative to the length.
@@ -114,5 +125,18 @@ mod tests {
         near(way_to([0.2, 0.5], 5, EndRule::Free), 0.1 / 0.5);
         near(way_to([0.3, 0.8], 5, EndRule::Free), 0.6 / 0.5);
         assert_eq!(way_to([0.25, 0.5], 4, EndRule::Free), None, "other segments");
+    }
+
+    #[test]
+    fn ends_are_left_to_move_by_what_is_asked_for() {
+        let asked = |quantities: &[Quantity], tolerance: f64| {
+            let goals = quantities.iter().map(|quantity| Goal { quantity: quantity.clone(), tolerance }).collect();
+            most_left(Some(&Accuracy { goals, most_unknowns: None, most_seconds: None }))
+        };
+        let force = Quantity::Force("seam".into());
+        assert_eq!(asked(&[force.clone(), Quantity::Energy], 1e-2), 1.6e-2);
+        assert_eq!(asked(&[force.clone()], 1e-6), MOST_LEFT);
+        assert_eq!(asked(&[force, Quantity::Ends("seam".into())], 1e-2), MOST_LEFT, "ends feel all of it");
+        assert_eq!(most_left(None), MOST_LEFT);
     }
 }
