@@ -9,9 +9,10 @@ use crate::procedure::ending::Ending;
 use crate::procedure::estimates::Estimate;
 use crate::procedure::sets::Pass;
 use crate::system::Preconditioning;
+use serde::Serialize;
 
 /// A coarser mesh that was solved first.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct CoarseSolve {
     /// Its refinement.
     pub refine: usize,

@@ -7,8 +7,9 @@ use super::numbers::{count, number, trust_word};
 use super::page::{ReportPage, TableColumn, long_table, rows_of};
 use super::verdict::word;
 use crate::output::markup::{UNKNOWN, subsection};
-use crate::output::summary::{AccuracyStep, BoundaryIteration, OuterIteration, StepSummary};
+use crate::output::summary::{AccuracyStep, StepSummary};
 use crate::output::units::Units;
+use crate::procedure::{BoundaryStep, Pass};
 
 /// Contacts that have columns in the table of load steps; all of them stand in `steps.csv`.
 const MOST_COLUMNS: usize = 4;
@@ -83,34 +84,29 @@ fn meshes_table(meshes: &[AccuracyStep]) -> String {
     long_table(&header, rows, "summary.json")
 }
 
-fn boundaries(all: &[BoundaryIteration]) -> String {
-    let columns: [TableColumn<&BoundaryIteration>; 5] = [
+fn boundaries(all: &[BoundaryStep]) -> String {
+    let columns: [TableColumn<&BoundaryStep>; 5] = [
         ("boundary", &|one| one.iteration.to_string()),
-        ("length", &|one| number(one.length)),
+        ("length", &|one| number(Some(one.length))),
         ("moves next by", &|one| number(one.moved)),
         ("change of the displacement", &|one| number(one.du)),
-        ("pressures that changed state", &|one| size(one.flipped)),
+        ("pressures that changed state", &|one| one.flipped.map_or(UNKNOWN.into(), |count| count.to_string())),
     ];
     let (header, rows) = rows_of(&columns, all.iter());
     long_table(&header, rows, "summary.json")
 }
 
-fn passes(all: &[OuterIteration]) -> String {
-    let columns: [TableColumn<&OuterIteration>; 8] = [
+fn passes(all: &[Pass]) -> String {
+    let columns: [TableColumn<&Pass>; 8] = [
         ("pass", &|pass| pass.iteration.to_string()),
-        ("active", &|pass| size(pass.active)),
-        ("added", &|pass| size(pass.added)),
-        ("released", &|pass| size(pass.released)),
-        ("iterations", &|pass| size(pass.krylov_iterations)),
-        ("residual", &|pass| number(pass.residual)),
-        ("largest penetration", &|pass| number(pass.max_penetration)),
-        ("change of the displacement", &|pass| number(pass.du)),
+        ("active", &|pass| pass.active.to_string()),
+        ("added", &|pass| pass.added.to_string()),
+        ("released", &|pass| pass.released.to_string()),
+        ("iterations", &|pass| pass.krylov_iterations.to_string()),
+        ("residual", &|pass| number(Some(pass.residual))),
+        ("largest penetration", &|pass| number(Some(pass.max_penetration))),
+        ("change of the displacement", &|pass| number(Some(pass.du))),
     ];
     let (header, rows) = rows_of(&columns, all.iter());
     long_table(&header, rows, "summary.json")
-}
-
-/// A small count for a cell.
-fn size(count: Option<usize>) -> String {
-    count.map_or(UNKNOWN.into(), |count| count.to_string())
 }

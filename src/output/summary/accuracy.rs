@@ -1,10 +1,10 @@
 //! What the summary says of an accuracy that was asked for.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// One mesh of those that were adapted to an accuracy. Goals that are not asked for are missing.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct AccuracyStep {
     /// Its macro triangles.
     pub macro_triangles: usize,
@@ -13,19 +13,18 @@ pub struct AccuracyStep {
     /// Displacement unknowns.
     pub unknowns: usize,
     /// What was solved on it, the coarsest refinement first.
-    #[serde(default)]
     pub cycles: Vec<Cycles>,
     /// Seconds since the first mesh was begun.
     pub seconds: f64,
     /// The displacement in the energy norm.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<GoalSummary>,
     /// By name of the contact: `force` (∫λ ds), `pressure` (λ over the middle of what presses, root mean square), `peak` (the
     /// largest λ) and `ends` (the ends of contact, by its width).
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub contact: BTreeMap<String, GoalsByWord>,
     /// By name of the probe: `displacement` and `stress`, each by its own size.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub probe: BTreeMap<String, GoalsByWord>,
 }
 
@@ -33,7 +32,7 @@ pub struct AccuracyStep {
 pub type GoalsByWord = BTreeMap<String, GoalSummary>;
 
 /// All solves on one refinement of a mesh.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Cycles {
     /// Displacement unknowns.
     pub unknowns: usize,
@@ -42,7 +41,7 @@ pub struct Cycles {
 }
 
 /// A relative error.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct GoalSummary {
     /// As estimated; null where there is not enough to tell.
     pub estimate: Option<f64>,

@@ -1,32 +1,30 @@
 //! What the summary says of a body: its largest stress.
 
 use super::Summary;
-use super::numbers::numbers;
 use super::told::WORST;
 use crate::geometry::{Coordinates, Rounded};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// The largest von Mises stress of one body, or of a part of one.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct BodySummary {
     /// How large it is at the nodes (stress).
     pub von_mises_max: Option<f64>,
     /// The node, undeformed.
-    #[serde(deserialize_with = "numbers")]
     pub place: Option<[f64; 2]>,
     /// Its displacement, for figures.
     #[serde(skip)]
     pub displacement: [f64; 2],
     /// The part that has it; the key is missing if the body has one part.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub part: Option<String>,
     /// Whether it can be believed.
     pub is_believed: bool,
     /// Why not; null if it can.
     pub verdict: Option<String>,
     /// The same of each part by its name; the key is missing if the body has one part.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub parts: BTreeMap<String, BodySummary>,
 }
 

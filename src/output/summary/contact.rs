@@ -1,13 +1,12 @@
 //! What the summary says of a contact, of the zones that press, and of the errors that are estimated of it.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use super::numbers::numbers;
 use crate::contact::zone_counts;
 use crate::geometry::{Coordinates, Point};
 
 /// One contact.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ContactSummary {
     /// Length of the contact boundary.
     pub length: Option<f64>,
@@ -32,10 +31,8 @@ pub struct ContactSummary {
     /// Force that penetration within single segments is worth (force per thickness).
     pub unresolved_force: Option<f64>,
     /// Resultant on body 2 (force per thickness).
-    #[serde(deserialize_with = "numbers")]
     pub resultant: Option<[f64; 2]>,
     /// Where it acts: the centre of the pressure; where nothing presses, the point with the smallest gap.
-    #[serde(default, deserialize_with = "numbers")]
     pub place: Option<[f64; 2]>,
     /// Moment on body 2 about the origin.
     pub moment: Option<f64>,
@@ -79,7 +76,7 @@ pub struct ContactSummary {
 }
 
 /// Whether a contact can be trusted. `run/verdict` judges it by all figures of a summary.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ContactTrust {
     /// Whether the contact pressure can be trusted; null if nothing tells, or if the corner of a body presses on too
     /// few edges: the reason says which.
@@ -125,7 +122,7 @@ impl ContactSummary {
 }
 
 /// An interval of a contact that presses.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ZoneSummary {
     /// Arc lengths of its ends.
     pub ends: Option<[f64; 2]>,
@@ -154,14 +151,11 @@ pub struct ZoneSummary {
     /// Whether λ grows without bound towards an end of the contact boundary, or where materials meet, as far as can be seen.
     pub singular: Option<bool>,
     /// Whether it does so towards an end.
-    #[serde(default)]
     pub singular_at_end: Option<bool>,
     /// Where materials meet and λ grows without bound.
-    #[serde(default, deserialize_with = "numbers")]
     pub singular_at: Option<[f64; 2]>,
     /// λ at an end of the contact boundary beyond which both bodies go on smoothly and no other contact takes over, by its largest
     /// pressure; 0 where there is no such end.
-    #[serde(default)]
     pub cut_off: Option<f64>,
     /// Whether it lies at an end of the contact boundary where one body has a corner and the other goes on.
     pub corner: Option<bool>,
@@ -176,7 +170,7 @@ impl ZoneSummary {
 }
 
 /// Estimated relative errors of a contact.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ContactEstimate {
     /// Of ∫ λ ds.
     pub force: Option<f64>,

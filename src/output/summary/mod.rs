@@ -7,9 +7,8 @@ mod accuracy;
 mod body;
 mod contact;
 mod machine;
-mod numbers;
-mod passes;
 mod provenance;
+mod solver;
 mod steps;
 mod thickness;
 mod told;
@@ -18,8 +17,8 @@ pub use accuracy::{AccuracyStep, Cycles, GoalSummary};
 pub use body::BodySummary;
 pub use contact::{ContactEstimate, ContactSummary, ContactTrust, ZoneSummary};
 pub use machine::{machine, whole_machine};
-pub use passes::{BoundaryIteration, CoarseSolveSummary, OuterIteration, SolverSummary};
 pub use provenance::Provenance;
+pub use solver::SolverSummary;
 pub use steps::{StepContact, StepSummary};
 pub use told::{MOST_TOLD, MOST_WITH_FIGURES, WORST, alike, capital, clauses, lines_alike, listed};
 
@@ -27,14 +26,14 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::output::error::OutputError;
 use crate::output::units::Units;
-use numbers::numbers;
+use crate::procedure::{BoundaryStep, Pass};
 
 /// The summary of a run. Start from [`Summary::new`] and fill in what is known.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Summary {
     /// Version of mezha.
     pub mezha: String,
@@ -49,42 +48,37 @@ pub struct Summary {
     /// What made the result, and of what; null in results of older versions.
     pub provenance: Option<Provenance>,
     /// Names of all files of the result, relative to its folder, sorted: a run that replaces it removes these and no others.
-    #[serde(default)]
     pub files: Vec<String>,
     /// `axisymmetric` if bodies are of revolution: forces, energies and resultants are then those of whole bodies, not per
     /// thickness. The key is missing in the plane.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub plane: Option<String>,
     /// The units that the case names; the key is missing if it names none.
-    #[serde(default, skip_serializing_if = "Units::is_none")]
+    #[serde(skip_serializing_if = "Units::is_none")]
     pub units: Units,
     /// The mesh after refinement.
     pub mesh: Mesh,
     /// Sizes of the linear system.
     pub unknowns: Unknowns,
     /// One entry per outer iteration.
-    pub outer: Vec<OuterIteration>,
+    pub outer: Vec<Pass>,
     /// One entry per contact boundary, where some follow the solution; otherwise empty.
-    pub boundaries: Vec<BoundaryIteration>,
+    pub boundaries: Vec<BoundaryStep>,
     /// By name of the contact.
     pub contact: BTreeMap<String, ContactSummary>,
     /// The largest stress by name of the body, of those that are no rigid tools.
-    #[serde(default)]
     pub body: BTreeMap<String, BodySummary>,
     /// By name of the rigid tool, or of the load that stays rigid.
     pub rigid: BTreeMap<String, RigidSummary>,
     /// By name of the support.
-    #[serde(default)]
     pub support: BTreeMap<String, SupportSummary>,
     /// Energies of the solution.
     pub energy: Energy,
     /// Largest displacement of a node (length).
     pub displacement_max: Option<f64>,
     /// Largest strain by name of the body: the mean of the larger principal strain over a macro triangle.
-    #[serde(default)]
     pub strain_max: BTreeMap<String, Option<f64>>,
     /// Mean rotation by name of the body, anticlockwise (radians).
-    #[serde(default)]
     pub rotation: BTreeMap<String, Option<f64>>,
     /// Estimated discretisation errors.
     pub estimate: EstimateSummary,
@@ -103,15 +97,15 @@ pub struct Summary {
     pub errors: BTreeMap<String, Option<f64>>,
     /// One entry per mesh that was adapted to an accuracy, the last one is that of the result; the key is missing if no accuracy
     /// was asked for.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<Vec<AccuracyStep>>,
     /// One entry per load step; everything else is that of the last one. The key is missing if the case has no steps.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<Vec<StepSummary>>,
 }
 
 /// Verdict of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// The result can be used.
@@ -126,7 +120,7 @@ pub enum Status {
 }
 
 /// The mesh after refinement.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Mesh {
     /// Number of triangles.
     pub triangles: Option<u64>,
@@ -141,7 +135,7 @@ pub struct Mesh {
 }
 
 /// Sizes of the linear system.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Unknowns {
     /// Displacement components.
     pub displacement: Option<u64>,
@@ -150,7 +144,7 @@ pub struct Unknowns {
 }
 
 /// A rigid tool, or a boundary that stays rigid.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct RigidSummary {
     /// Shift of the reference point (length), and turn about it (radians).
     pub motion: Option<[f64; 3]>,
@@ -163,22 +157,21 @@ pub struct RigidSummary {
 }
 
 /// One support.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct SupportSummary {
     /// Its force on the bodies (per thickness).
-    #[serde(deserialize_with = "numbers")]
     pub reaction: Option<[f64; 2]>,
     /// Its moment about the middle of the body, where it holds a mean motion.
     pub moment: Option<f64>,
 }
 
 /// Energies per thickness.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Energy {
     /// Strain energy by name of the body.
     pub strain: BTreeMap<String, Option<f64>>,
     /// The same by name of the part, of bodies with parts; the key is missing if there are none.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub parts: BTreeMap<String, Option<f64>>,
     /// Total strain energy U.
     pub total: Option<f64>,
@@ -191,7 +184,7 @@ pub struct Energy {
 }
 
 /// Estimated discretisation errors.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct EstimateSummary {
     /// Relative error in the energy norm.
     pub energy: Option<f64>,
@@ -201,7 +194,7 @@ pub struct EstimateSummary {
 }
 
 /// Relative residuals of the balances.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct BalanceSummary {
     /// Of the contact forces on both bodies.
     pub force: Option<f64>,
@@ -214,24 +207,21 @@ pub struct BalanceSummary {
 }
 
 /// The solution at a point.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ProbeSummary {
     /// The point, undeformed.
-    #[serde(deserialize_with = "numbers")]
     pub x: Option<[f64; 2]>,
     /// Displacement.
-    #[serde(deserialize_with = "numbers")]
     pub u: Option<[f64; 2]>,
     /// Stress xx, yy, xy.
-    #[serde(deserialize_with = "numbers")]
     pub stress: Option<[f64; 3]>,
     /// Hoop stress; the key is missing in the plane.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub hoop: Option<f64>,
 }
 
 /// Wall time in seconds, slowest rank.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Time {
     /// Reading, partition, refinement.
     pub mesh: Option<f64>,
@@ -250,7 +240,7 @@ pub struct Time {
 }
 
 /// Largest resident memory in MiB.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Memory {
     /// Of the rank that uses most.
     pub max_rank: Option<f64>,
@@ -273,16 +263,6 @@ impl Summary {
             .map_err(std::io::Error::from)
             .and_then(|text| fs::write(path, text + "\n"))
             .map_err(OutputError::unwritten(path))
-    }
-
-    /// Reads a `summary.json` back; numbers that are null inside a vector become NaN.
-    ///
-    /// # Errors
-    /// The file cannot be read, or is no summary.
-    pub fn read(path: &Path) -> Result<Summary, OutputError> {
-        fs::read_to_string(path)
-            .and_then(|text| serde_json::from_str(&text).map_err(std::io::Error::from))
-            .map_err(OutputError::io("read", path))
     }
 }
 

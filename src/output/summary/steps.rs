@@ -1,13 +1,12 @@
 //! What a summary says of load steps.
 
 use super::contact::ContactSummary;
-use super::numbers::numbers;
 use super::{BalanceSummary, ProbeSummary, RigidSummary, Status, Summary, SupportSummary};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// One load step.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct StepSummary {
     /// Its number, from 1.
     pub step: usize,
@@ -40,12 +39,11 @@ pub struct StepSummary {
 }
 
 /// A contact in one load step.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct StepContact {
     /// ∫ λ ds (force per thickness).
     pub force: Option<f64>,
     /// Resultant on body 2 (force per thickness).
-    #[serde(deserialize_with = "numbers")]
     pub resultant: Option<[f64; 2]>,
     /// Intervals of arc length in contact.
     pub closed: Option<Vec<[f64; 2]>>,

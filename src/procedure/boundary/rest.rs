@@ -5,6 +5,7 @@ use crate::accuracy::{Accuracy, Goal, Quantity, share_of_nothing};
 use crate::contact::Configuration;
 use crate::discretisation::Contact;
 use crate::procedure::ending::{Failure, HeldEnds, Standing};
+use serde::Serialize;
 
 /// Boundaries placed at most.
 pub const MOST_BOUNDARIES: usize = 30;
@@ -27,7 +28,7 @@ const MOST_LEFT: f64 = 1.6e-3;
 const LEFT_BY_ROOT: f64 = 0.16;
 
 /// One boundary of the loop, in figures.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct BoundaryStep {
     /// Number of the boundary, from 1.
     pub iteration: usize,

@@ -1,7 +1,9 @@
 //! What is kept of a pass of the loop over active sets.
 
+use serde::Serialize;
+
 /// One pass of the loop, in figures.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Pass {
     /// Number of the pass, from 1.
     pub iteration: usize,
@@ -22,5 +24,6 @@ pub struct Pass {
     /// Change of the displacement, relative to its norm.
     pub du: f64,
     /// The stronger preconditioner that the linear solver went over to, in words.
+    #[serde(skip)]
     pub fallback: Option<String>,
 }

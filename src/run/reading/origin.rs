@@ -4,7 +4,7 @@ use crate::accuracy::Accuracy;
 use crate::case::{Case, sha256};
 use crate::origin::{COMMIT, COMPILER};
 use crate::output::summary::Provenance;
-use crate::output::{OutputError, ResultFolder, Summary, whole_machine};
+use crate::output::{OutputError, ResultFolder, whole_machine};
 use crate::petsc::{Session, options, versions};
 use rustix::system::uname;
 use std::path::{Path, PathBuf};
@@ -97,11 +97,10 @@ impl ResultOrigin {
 pub fn result_before(case: &Case, mesh: &[u8]) -> Result<Option<Provenance>, String> {
     let beside = case.file.parent().unwrap_or(Path::new(""));
     let hash = case_hash(case);
-    let read = |folder: &Path| Summary::read(&folder.join("summary.json")).ok()?.provenance;
     let above = beside.join("../..");
-    let whole = read(beside).filter(|before| before.case_hash == hash);
+    let whole = Provenance::of_result(beside).filter(|before| before.case_hash == hash);
     let is_whole = whole.is_some();
-    let step = || read(&above).filter(|before| before.step_hashes.contains(&hash));
+    let step = || Provenance::of_result(&above).filter(|before| before.step_hashes.contains(&hash));
     let Some(before) = whole.or_else(step) else { return Ok(None) };
     let copy = if is_whole { beside } else { &above }.join(MESH);
     let named = if copy.is_file() { copy } else { PathBuf::from(&before.mesh_file) };

@@ -5,8 +5,7 @@ use crate::case::{Case, Probe};
 use crate::element::{Order, Plane};
 use crate::geometry::Point;
 use crate::output::summary::{
-    BalanceSummary, CoarseSolveSummary, Energy, Mesh, ProbeSummary, RigidSummary, SolverSummary, Summary, SupportSummary,
-    Unknowns,
+    BalanceSummary, Energy, Mesh, ProbeSummary, RigidSummary, SolverSummary, Summary, SupportSummary, Unknowns,
 };
 use crate::petsc::versions;
 use crate::procedure::Solved;
@@ -22,11 +21,6 @@ pub fn described(before: Summary, case: &Case, solved: &Solved) -> Summary {
     let count = numbering.level.triangles_per_edge();
     let [shortest, longest] = scene.mesh.shortest_and_longest_edge(numbering.level);
     let midsides = if scene.order == Order::P1 { 0 } else { edge_count(solved) };
-    let coarse = solved.coarse.iter().map(|solve| CoarseSolveSummary {
-        refine: solve.refine,
-        unknowns: solve.unknowns,
-        iterations: solve.iterations.clone(),
-    });
     Summary {
         mesh: Mesh {
             triangles: Some((scene.mesh.triangles.len() * count * count) as u64),
@@ -40,13 +34,13 @@ pub fn described(before: Summary, case: &Case, solved: &Solved) -> Summary {
             multiplier: Some(problem.multiplier_count() as u64),
         },
         units: units(case),
-        outer: solved.passes.iter().map(Into::into).collect(),
-        boundaries: solved.boundaries.iter().map(Into::into).collect(),
+        outer: solved.passes.clone(),
+        boundaries: solved.boundaries.clone(),
         solver: SolverSummary {
             name: Some(case.solver.choice.name().into()),
             krylov: Some(solved.solver.clone()),
             iterations: solved.passes.iter().map(|step| step.krylov_iterations).collect(),
-            coarse: coarse.collect(),
+            coarse: solved.coarse.clone(),
             cycles: Some(solved.work()),
             residual: Some(solution.residual),
             plain_residual: Some(solution.plain_residual),

@@ -8,9 +8,9 @@ use super::progress;
 use crate::accuracy::Adaptation;
 use crate::case::Case;
 use crate::output::report::{ReportPage, write_report};
-use crate::output::summary::{CoarseSolveSummary, Mesh, Status, StepSummary, Summary, Time, Unknowns};
+use crate::output::summary::{Mesh, Status, StepSummary, Summary, Time, Unknowns};
 use crate::output::{OutputError, ResultFolder, recover};
-use crate::procedure::{Event, Work};
+use crate::procedure::{CoarseSolve, Event, Work};
 use crate::run::accuracy;
 use crate::run::reading::origin::ResultOrigin;
 use crate::run::run_options::RunOptions;
@@ -240,17 +240,17 @@ impl Unfinished {
             }
             Event::Solver(_) | Event::Begin(_) | Event::Refinement { .. } => {}
             Event::Again { .. } => self.forget_passes(),
-            Event::Coarse { refine, unknowns, passes, .. } => summary.solver.coarse.push(CoarseSolveSummary {
+            Event::Coarse { refine, unknowns, passes, .. } => summary.solver.coarse.push(CoarseSolve {
                 refine: *refine,
                 unknowns: *unknowns,
                 iterations: passes.iter().map(|pass| pass.krylov_iterations).collect(),
             }),
             Event::Passed(pass, _) => {
-                summary.outer.push((*pass).into());
+                summary.outer.push((*pass).clone());
                 summary.solver.iterations.push(pass.krylov_iterations);
                 summary.solver.residual = Some(pass.residual);
             }
-            Event::Placed(step) => summary.boundaries.push((*step).into()),
+            Event::Placed(step) => summary.boundaries.push((*step).clone()),
             Event::Adapted { accuracy, mesh, solved, .. } => {
                 *summary = described(std::mem::take(summary), case, solved);
                 let one = Adaptation { meshes: vec![(*mesh).clone()], ..Adaptation::new((*accuracy).clone()) };
@@ -337,7 +337,7 @@ mod tests {
             fs::write(folder.path("fields.vtu"), "half").unwrap();
             fs::create_dir_all(folder.path("steps/001")).unwrap();
             let mut summary = Summary::new("bars", 2);
-            summary.solver.coarse.push(CoarseSolveSummary::default());
+            summary.solver.coarse.push(CoarseSolve::default());
             Unfinished {
                 folder,
                 origin: Arc::default(),
@@ -351,9 +351,9 @@ mod tests {
         };
         let words = unfinished().interrupt("SIGTERM");
         assert!(words.starts_with("interrupted by SIGTERM after 0.0 s, while solving: coarser meshes are solved (1)"), "{words}");
-        let written = Summary::read(&out.join("summary.json")).unwrap();
-        assert_eq!((written.status, fs::read_dir(&out).unwrap().count()), (Status::Interrupted, 3));
-        assert_eq!(written.outer, []);
+        let written: serde_json::Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+        assert_eq!(written["status"], "interrupted");
+        assert_eq!((written["outer"].as_array().unwrap().len(), fs::read_dir(&out).unwrap().count()), (0, 3));
         let page = fs::read_to_string(out.join("report.html")).unwrap();
         for words in ["Two &lt;bars&gt;", "Interrupted", "SIGTERM after 0.0 s", "a &lt;warning&gt;"] {
             assert!(page.contains(words), "{words}: {page}");

@@ -3,9 +3,10 @@
 use super::super::page::ExpectedValue;
 use super::*;
 use crate::output::summary::{
-    AccuracyStep, BoundaryIteration, ContactEstimate, ContactSummary, ContactTrust, GoalSummary, OuterIteration, ProbeSummary,
-    RigidSummary, Status, StepContact, StepSummary, Summary, SupportSummary, ZoneSummary,
+    AccuracyStep, ContactEstimate, ContactSummary, ContactTrust, GoalSummary, ProbeSummary, RigidSummary, Status, StepContact,
+    StepSummary, Summary, SupportSummary, ZoneSummary,
 };
+use crate::procedure::{BoundaryStep, Pass};
 
 /// A name that must not become markup.
 const NAME: &str = "<script>alert('&')</script>";
@@ -36,8 +37,8 @@ fn summary(status: Status) -> Summary {
     summary.energy.strain.insert(NAME.into(), Some(3.0));
     summary.strain_max.insert(NAME.into(), Some(0.001));
     summary.balance.force = Some(1e-12);
-    summary.outer = (1..=100).map(|iteration| OuterIteration { iteration, ..OuterIteration::default() }).collect();
-    summary.boundaries.push(BoundaryIteration::default());
+    summary.outer = (1..=100).map(|iteration| Pass { iteration, ..Pass::default() }).collect();
+    summary.boundaries.push(BoundaryStep::default());
     let goal = GoalSummary { estimate: Some(2e-3), error: None, asked: 1e-3 };
     summary.accuracy = Some(vec![AccuracyStep { energy: Some(goal), ..AccuracyStep::default() }]);
     let contact = [(NAME.to_owned(), StepContact::default())].into();
