@@ -1,8 +1,8 @@
-//! JSON Schema, documentation and program say the same of case and study files, for they are made of one table.
+//! JSON Schema and program say the same of case and study files, for they are made of one table.
 //!
-//! `MEZHA_WRITE=1` writes the schemas and the tables of the documentation anew. `MEZHA_PYTHON` names an interpreter with `jsonschema`,
-//! an independent reader of the schemas; without it the test that wants it says so and checks nothing. `MEZHA_SCHEMA_MUTANTS` is the
-//! number of changed files that are looked at, `MEZHA_SCHEMA_FROM` the number of the first one.
+//! `MEZHA_WRITE=1` writes the schemas anew. `MEZHA_PYTHON` names an interpreter with `jsonschema`, an independent reader of the
+//! schemas; without it the test that wants it says so and checks nothing. `MEZHA_SCHEMA_MUTANTS` is the number of changed files that
+//! are looked at, `MEZHA_SCHEMA_FROM` the number of the first one.
 
 #[path = "fuzz/mutate.rs"]
 mod mutate;
@@ -22,13 +22,8 @@ use toml::{Table, Value};
 const MUTANTS: u64 = 3000;
 
 /// What people write, and the schema of each kind.
-const KINDS: [(&str, &TableForm, &str, &str); 2] = [
-    ("case", &schema::CASE, "docs/case.schema.json", "docs/case.md"),
-    ("study", &schema::STUDY, "docs/study.schema.json", "docs/studies.md"),
-];
-
-/// Around the table of keys of a page of the documentation.
-const MARKS: [&str; 2] = ["<!-- keys: made by tests/schema.rs -->\n\n", "\n\n<!-- end of keys -->\n"];
+const KINDS: [(&str, &TableForm, &str); 2] =
+    [("case", &schema::CASE, "docs/case.schema.json"), ("study", &schema::STUDY, "docs/study.schema.json")];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -56,14 +51,9 @@ fn holds(file: &Path, text: &str) {
 }
 
 #[test]
-fn schemas_and_documentation_are_made_of_the_table_of_keys() {
-    for (_, table, file, page) in KINDS {
+fn schemas_are_made_of_the_table_of_keys() {
+    for (_, table, file) in KINDS {
         holds(&root().join(file), &format!("{}\n", schema::json(table)));
-        let page = root().join(page);
-        let text = fs::read_to_string(&page).expect("a page");
-        let (before, rest) = text.split_once(MARKS[0]).expect("a mark before the keys");
-        let (_, after) = rest.split_once(MARKS[1]).expect("a mark after the keys");
-        holds(&page, &format!("{before}{}{}{}{after}", MARKS[0], schema::markdown(table), MARKS[1]));
     }
 }
 
@@ -243,7 +233,7 @@ fn an_independent_reader_of_the_schemas_agrees_with_the_program() {
     };
     let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
     let (mutants, from) = (number("MEZHA_SCHEMA_MUTANTS").unwrap_or(MUTANTS), number("MEZHA_SCHEMA_FROM").unwrap_or(0));
-    let schemas = KINDS.map(|(kind, _, file, _)| format!("{kind}={}", root().join(file).display()));
+    let schemas = KINDS.map(|(kind, _, file)| format!("{kind}={}", root().join(file).display()));
     let mut reader = Command::new(python)
         .arg(root().join("tests/schema.py"))
         .args(schemas)

@@ -35,8 +35,6 @@ const OFF_CIRCLE: f64 = 1e-6;
 pub struct Case {
     /// The case file.
     pub file: PathBuf,
-    /// Folder of the case file; other files are relative to it.
-    pub folder: PathBuf,
     /// Name of the folder if the file is called `case.toml`, else the file's stem.
     pub name: String,
     /// What it shows, in words.

@@ -130,8 +130,8 @@ impl Case {
     /// Reads every section, then checks what lies between them. None if there is no mesh to speak of; of what else is missing or
     /// bad the log knows.
     fn from_section(root: &Section, file: &Path) -> Option<Self> {
-        let (folder, title) = (file.parent().unwrap_or(Path::new("")).to_path_buf(), root.or_default(TITLE));
-        let mesh = read_mesh(root, &folder);
+        let title = root.or_default(TITLE);
+        let mesh = read_mesh(root, file.parent().unwrap_or(Path::new("")));
         let (plane, gravity) = (root.or_default(PLANE), read_gravity(root));
         let bodies = root.named("body", |section| body::read_body(section, plane, gravity));
         let tools = root.named("rigid", read_tool);
@@ -163,7 +163,6 @@ impl Case {
             units: output::read_units(root),
             name: name_of(file, "case.toml"),
             file: file.into(),
-            folder,
             title,
             mesh: mesh?,
             bodies,

@@ -1,8 +1,31 @@
+mod markdown;
+
+use std::fs;
 use std::path::Path;
 
 use super::*;
 use crate::case::Case;
 use crate::case::keys::{ValueForm, tables};
+
+/// Around the table of keys of a page of the documentation.
+const MARKS: [&str; 2] = ["<!-- keys: made by src/case/schema/tests.rs -->\n\n", "\n\n<!-- end of keys -->\n"];
+
+/// The pages have the tables of keys; they are written if `MEZHA_WRITE` asks for that.
+#[test]
+fn documentation_is_made_of_the_table_of_keys() {
+    for (table, page) in [(&CASE, "docs/case.md"), (&STUDY, "docs/studies.md")] {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(page);
+        let found = fs::read_to_string(&file).expect("a page");
+        let (before, rest) = found.split_once(MARKS[0]).expect("a mark before the keys");
+        let (_, after) = rest.split_once(MARKS[1]).expect("a mark after the keys");
+        let text = format!("{before}{}{}{}{after}", MARKS[0], markdown::markdown(table), MARKS[1]);
+        if std::env::var_os("MEZHA_WRITE").is_some() {
+            fs::write(&file, &text).expect("a file can be written");
+        }
+        let is_new = std::env::var_os("MEZHA_WRITE").is_some() || found == text;
+        assert!(is_new, "{page} is old; MEZHA_WRITE=1 cargo test --release --lib schema:: writes it anew");
+    }
+}
 
 /// A case with what no case of the project has.
 const REST: &str = r#"
