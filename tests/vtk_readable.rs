@@ -7,8 +7,9 @@ use std::path::Path;
 use std::process::Command;
 
 use mezha::element::Order;
-use mezha::output::ContactPoint;
+use mezha::geometry::Point;
 use mezha::output::vtk::{Piece, PieceNode, write_curve, write_parallel, write_piece};
+use mezha::recovery::TracePoint;
 
 /// Two triangles of the rectangle with the given lower left corner, with fields that are formulas of the place.
 fn write_rectangle(path: &Path, order: Order, corner: [f64; 2], rank: i32) {
@@ -35,19 +36,16 @@ fn write_rectangle(path: &Path, order: Order, corner: [f64; 2], rank: i32) {
 }
 
 /// A quarter circle; the fourth and fifth point share their place, where λ jumps.
-fn quarter_circle() -> Vec<ContactPoint> {
-    let point = |number: usize, s: f64| ContactPoint {
-        s,
-        x: s.cos(),
-        y: s.sin(),
-        nx: s.cos(),
-        ny: s.sin(),
+fn quarter_circle() -> Vec<TracePoint> {
+    let point = |number: usize, s: f64| TracePoint {
+        arc: s,
+        x: Point::new(s.cos(), s.sin()),
+        normal: Point::new(s.cos(), s.sin()),
         lambda: number as f64 + 0.5,
         gap: 1e-9 * s,
-        un_1: 2.0 * s,
-        un_2: 3.0 * s,
-        sigma_1: -s,
-        sigma_2: -2.0 * s,
+        displacement: [2.0 * s, 3.0 * s],
+        stress: [-s, -2.0 * s],
+        ..TracePoint::default()
     };
     [0.0, 0.3, 0.6, 0.9, 0.9, 1.2, 1.5].iter().enumerate().map(|(number, &s)| point(number, s)).collect()
 }

@@ -26,7 +26,7 @@ pub mod summary;
 mod units;
 
 pub use clock::clock;
-pub use data::{CONTACTS, ContactPoint, SIGNS, quoted, vtk, write_contact, write_contacts, write_steps};
+pub use data::{CONTACTS, SIGNS, quoted, vtk, write_contact, write_contacts, write_steps};
 pub use error::OutputError;
 pub use folder::{ResultFolder, entries, recover, remove_if_there};
 pub use summary::{Summary, machine, whole_machine};

@@ -16,8 +16,8 @@ const VALUES: usize = 5;
 /// Points whose values are added up over the ranks at once.
 const AT_ONCE: usize = 1 << 14;
 
-/// Values at one point of Γ_C.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Values at one point of Γ_C. Where λ jumps, two points with the same arc length carry both values.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TracePoint {
     /// Arc length from the start.
     pub arc: f64,

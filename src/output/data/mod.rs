@@ -3,7 +3,7 @@
 mod tables;
 pub mod vtk;
 
-pub use tables::{CONTACTS, ContactPoint, write_contact, write_contacts, write_steps};
+pub use tables::{CONTACTS, write_contact, write_contacts, write_steps};
 
 /// The signs of a result, as its files state them in their header.
 pub const SIGNS: [&str; 5] = [

@@ -7,6 +7,7 @@ use std::path::Path;
 use super::{SIGNS, quoted};
 use crate::output::error::OutputError;
 use crate::output::summary::{Status, StepSummary, Summary};
+use crate::recovery::TracePoint;
 
 /// Name of the table in a result folder.
 pub const CONTACTS: &str = "contacts.csv";
@@ -52,53 +53,24 @@ fn contact_rows<'a>(
     Ok(())
 }
 
-/// The solution at one point of the contact boundary; signs as in [`SIGNS`].
-///
-/// Points come in order of `s`; where λ jumps, two points with the same `s` carry both values.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ContactPoint {
-    /// Arc length from the first end of the contact boundary.
-    pub s: f64,
-    /// Position on the contact boundary.
-    pub x: f64,
-    /// Position on the contact boundary.
-    pub y: f64,
-    /// Unit normal from body 1 to body 2.
-    pub nx: f64,
-    /// Unit normal from body 1 to body 2.
-    pub ny: f64,
-    /// Contact pressure λ (stress).
-    pub lambda: f64,
-    /// Gap of the deformed bodies (length).
-    pub gap: f64,
-    /// Normal displacement n · u of body 1 at the corresponding point (length).
-    pub un_1: f64,
-    /// Normal displacement n · u of body 2.
-    pub un_2: f64,
-    /// Normal stress n · σ n on the trace of body 1 (stress).
-    pub sigma_1: f64,
-    /// Normal stress n · σ n on the trace of body 2.
-    pub sigma_2: f64,
-}
-
 /// Writes `contact_NAME.csv`: [`SIGNS`] as lines that start with `# `, the names of the columns, one line per point.
 ///
 /// Numbers are the shortest that read back as the same double.
 ///
 /// # Errors
 /// The operating system refuses.
-pub fn write_contact(path: &Path, points: &[ContactPoint]) -> Result<(), OutputError> {
+pub fn write_contact(path: &Path, points: &[TracePoint]) -> Result<(), OutputError> {
     write_table(path, |out| point_rows(out, points))
 }
 
-fn point_rows(out: &mut impl Write, points: &[ContactPoint]) -> io::Result<()> {
+fn point_rows(out: &mut impl Write, points: &[TracePoint]) -> io::Result<()> {
     for line in SIGNS.iter() {
         writeln!(out, "# {line}")?;
     }
     writeln!(out, "s,x,y,nx,ny,lambda,gap,un_1,un_2,sigma_1,sigma_2")?;
     for p in points {
-        write!(out, "{:?},{:?},{:?},{:?},{:?},{:?},", p.s, p.x, p.y, p.nx, p.ny, p.lambda)?;
-        writeln!(out, "{:?},{:?},{:?},{:?},{:?}", p.gap, p.un_1, p.un_2, p.sigma_1, p.sigma_2)?;
+        write!(out, "{:?},{:?},{:?},{:?},{:?},{:?},", p.arc, p.x.x, p.x.y, p.normal.x, p.normal.y, p.lambda)?;
+        writeln!(out, "{:?},{:?},{:?},{:?},{:?}", p.gap, p.displacement[0], p.displacement[1], p.stress[0], p.stress[1])?;
     }
     Ok(())
 }
@@ -190,6 +162,7 @@ fn number_cell(number: Option<f64>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Point;
     use crate::output::summary::{ContactSummary, ContactTrust, StepContact};
     use proptest::prelude::*;
 
@@ -243,18 +216,15 @@ mod tests {
 
     #[test]
     fn numbers_read_back_as_they_were() {
-        let point = ContactPoint {
-            s: 1.0 / 3.0,
-            x: -0.0,
-            y: 1e-300,
-            nx: 0.1 + 0.2,
-            ny: 1.0,
+        let point = TracePoint {
+            arc: 1.0 / 3.0,
+            x: Point::new(-0.0, 1e-300),
+            normal: Point::new(0.1 + 0.2, 1.0),
             lambda: std::f64::consts::PI * 1e20,
             gap: -5e-324,
-            un_1: 7.0,
-            un_2: f64::MAX,
-            sigma_1: f64::MIN_POSITIVE,
-            sigma_2: -1.5e-9,
+            displacement: [7.0, f64::MAX],
+            stress: [f64::MIN_POSITIVE, -1.5e-9],
+            ..TracePoint::default()
         };
         let mut text = Vec::new();
         point_rows(&mut text, &[point, point]).unwrap();
@@ -262,8 +232,9 @@ mod tests {
         let mut lines = text.lines().skip_while(|line| line.starts_with("# "));
         assert_eq!(lines.next(), Some("s,x,y,nx,ny,lambda,gap,un_1,un_2,sigma_1,sigma_2"));
         let row: Vec<f64> = lines.next().unwrap().split(',').map(|number| number.parse().unwrap()).collect();
-        let p = point;
-        assert_eq!(row, [p.s, p.x, p.y, p.nx, p.ny, p.lambda, p.gap, p.un_1, p.un_2, p.sigma_1, p.sigma_2]);
+        let TracePoint { arc, x, normal, lambda, gap, displacement, stress, .. } = point;
+        assert_eq!(row[..7], [arc, x.x, x.y, normal.x, normal.y, lambda, gap]);
+        assert_eq!(row[7..], [displacement, stress].concat());
         assert_eq!(lines.count(), 1);
         assert!(text.lines().all(|line| line.len() < 260));
     }

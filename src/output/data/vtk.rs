@@ -11,9 +11,9 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use super::SIGNS;
-use super::tables::ContactPoint;
 use crate::element::Order;
 use crate::output::error::OutputError;
+use crate::recovery::TracePoint;
 
 const STRESS_COMPONENTS: [&str; 4] = ["XX", "YY", "XY", "ZZ"];
 const VTK_LINE: u8 = 3;
@@ -88,23 +88,23 @@ pub fn write_parallel<S: AsRef<str>>(path: &Path, piece_file_names: &[S], is_hea
 ///
 /// # Errors
 /// The operating system refuses.
-pub fn write_curve(path: &Path, points: &[ContactPoint]) -> Result<(), OutputError> {
-    let joined = |&i: &usize| points[i].s < points[i + 1].s;
+pub fn write_curve(path: &Path, points: &[TracePoint]) -> Result<(), OutputError> {
+    let joined = |&i: &usize| points[i].arc < points[i + 1].arc;
     let starts: Vec<usize> = (0..points.len().saturating_sub(1)).filter(joined).collect();
-    type NamedScalar = (&'static str, fn(&ContactPoint) -> f64);
+    type NamedScalar = (&'static str, fn(&TracePoint) -> f64);
     let scalars: [NamedScalar; 7] = [
-        ("s", |p| p.s),
+        ("s", |p| p.arc),
         ("lambda", |p| p.lambda),
         ("gap", |p| p.gap),
-        ("un_1", |p| p.un_1),
-        ("un_2", |p| p.un_2),
-        ("sigma_1", |p| p.sigma_1),
-        ("sigma_2", |p| p.sigma_2),
+        ("un_1", |p| p.displacement[0]),
+        ("un_2", |p| p.displacement[1]),
+        ("sigma_1", |p| p.stress[0]),
+        ("sigma_2", |p| p.stress[1]),
     ];
     write_file(path, "UnstructuredGrid", |out| {
         write_mesh(
             out,
-            points.iter().map(|p| [p.x, p.y]),
+            points.iter().map(|p| [p.x.x, p.x.y]),
             starts.iter().flat_map(|&start| [start as i32, start as i32 + 1]),
             &CellShape { count: starts.len(), nodes: 2, kind: VTK_LINE },
         )?;
@@ -112,7 +112,7 @@ pub fn write_curve(path: &Path, points: &[ContactPoint]) -> Result<(), OutputErr
         for (name, value) in scalars {
             write_array(out, name, 1, &[], points.len(), points.iter().map(|p| value(p).to_le_bytes()))?;
         }
-        let normals = points.iter().flat_map(|p| [p.nx, p.ny, 0.0].map(f64::to_le_bytes));
+        let normals = points.iter().flat_map(|p| [p.normal.x, p.normal.y, 0.0].map(f64::to_le_bytes));
         write_array(out, "normal", 3, &[], 3 * points.len(), normals)?;
         writeln!(out, "</PointData>\n</Piece>")
     })

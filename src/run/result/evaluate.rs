@@ -1,9 +1,9 @@
 //! A solution made into a summary, with its files.
 
 use crate::output::summary::{EstimateSummary, Status, Summary};
-use crate::output::{CONTACTS, ContactPoint, write_contacts};
+use crate::output::{CONTACTS, write_contacts};
 use crate::procedure::{Solved, Work};
-use crate::recovery::{Evaluation, TracePoint};
+use crate::recovery::Evaluation;
 use crate::run::outcome::RunError;
 use crate::run::summary::bodies::largest_stresses;
 use crate::run::summary::contact::contact;
@@ -75,7 +75,7 @@ impl Run<'_> {
             contacts.insert(placed.pair.name.clone(), figures);
             estimates.insert(placed.pair.name.clone(), estimate);
             // Rank 0 alone writes and draws them.
-            traces.push(if self.session.rank() == 0 { points.iter().map(contact_point).collect() } else { Vec::new() });
+            traces.push(if self.session.rank() == 0 { points } else { Vec::new() });
         }
         self.report.warn_all(&warnings);
         let summary = with_fields(summary, self.case, &found)?;
@@ -88,21 +88,5 @@ impl Run<'_> {
         let adaptation = accuracy::adaptation(self.case, solved, &self.true_errors.borrow());
         self.write_files(&found, &summary, (&traces, &peaks), adaptation.as_ref())?;
         Ok((summary, status, reason))
-    }
-}
-
-fn contact_point(p: &TracePoint) -> ContactPoint {
-    ContactPoint {
-        s: p.arc,
-        x: p.x.x,
-        y: p.x.y,
-        nx: p.normal.x,
-        ny: p.normal.y,
-        lambda: p.lambda,
-        gap: p.gap,
-        un_1: p.displacement[0],
-        un_2: p.displacement[1],
-        sigma_1: p.stress[0],
-        sigma_2: p.stress[1],
     }
 }

@@ -9,8 +9,8 @@ use crate::element::{Plane, StressMeasure};
 use crate::mesh::MacroMesh;
 use crate::output::plot::{self, ContactZoom, DeformedFigure, DrawnContact, DrawnForce, Facet};
 use crate::output::summary::{BodySummary, MOST_WITH_FIGURES};
-use crate::output::{ContactPoint, OutputError, Summary};
-use crate::recovery::Evaluation;
+use crate::output::{OutputError, Summary};
+use crate::recovery::{Evaluation, TracePoint};
 use crate::run::outcome::RunError;
 use crate::run::words::title;
 use crate::run::{Run, accuracy};
@@ -36,7 +36,7 @@ impl Run<'_> {
         &self,
         found: &Evaluation,
         summary: &Summary,
-        (traces, peaks): (&[Vec<ContactPoint>], &[(String, BodySummary)]),
+        (traces, peaks): (&[Vec<TracePoint>], &[(String, BodySummary)]),
         adaptation: Option<&Adaptation>,
         stress: impl Fn(usize, usize) -> [f64; 4],
     ) -> Result<(), RunError> {
@@ -165,9 +165,9 @@ fn drawn_forces(scene: &Scene, contacts: &[Contact], summary: &Summary, thicknes
 }
 
 /// ∫λ ds over an interval, by trapezoids.
-fn force_on(points: &[ContactPoint], [from, to]: [f64; 2]) -> f64 {
-    let inside = points.windows(2).filter(|pair| pair[0].s >= from && pair[1].s <= to);
-    inside.map(|pair| 0.5 * (pair[0].lambda + pair[1].lambda) * (pair[1].s - pair[0].s)).sum()
+fn force_on(points: &[TracePoint], [from, to]: [f64; 2]) -> f64 {
+    let inside = points.windows(2).filter(|pair| pair[0].arc >= from && pair[1].arc <= to);
+    inside.map(|pair| 0.5 * (pair[0].lambda + pair[1].lambda) * (pair[1].arc - pair[0].arc)).sum()
 }
 
 /// What stands above the figures of a contact, which is named where there are others.

@@ -6,8 +6,8 @@ use crate::discretisation::Contact;
 use crate::mesh::MacroMesh;
 use crate::output::report::{ReportPage, write_report};
 use crate::output::summary::{BodySummary, Status, Summary};
-use crate::output::{ContactPoint, OutputError, ResultFolder, vtk, write_contact};
-use crate::recovery::Evaluation;
+use crate::output::{OutputError, ResultFolder, vtk, write_contact};
+use crate::recovery::{Evaluation, TracePoint};
 use crate::run::Run;
 use crate::run::accuracy::ADAPTED_MESH;
 use crate::run::outcome::RunError;
@@ -84,7 +84,7 @@ impl Run<'_> {
         &self,
         found: &Evaluation,
         summary: &Summary,
-        (traces, peaks): (&[Vec<ContactPoint>], &[(String, BodySummary)]),
+        (traces, peaks): (&[Vec<TracePoint>], &[(String, BodySummary)]),
         adaptation: Option<&Adaptation>,
     ) -> Result<(), RunError> {
         let folder = &self.files;
@@ -109,7 +109,7 @@ impl Run<'_> {
         &self,
         found: &Evaluation,
         summary: &Summary,
-        traces: &[Vec<ContactPoint>],
+        traces: &[Vec<TracePoint>],
         stress: impl Fn(usize, usize) -> [f64; 4],
     ) {
         let folder = &self.files;
@@ -117,7 +117,7 @@ impl Run<'_> {
         let pairs = found.problem.contacts.iter().zip(traces);
         let pairs = pairs.filter(|(contact, _)| shown.contains(contact.pair.name.as_str()));
         let curves = pairs.map(|(contact, points)| (folder.join(format!("contact_{}.vtu", contact.pair.name)), points));
-        let curves: Vec<(PathBuf, &Vec<ContactPoint>)> = curves.collect();
+        let curves: Vec<(PathBuf, &Vec<TracePoint>)> = curves.collect();
         let write_curves = || curves.iter().try_for_each(|(path, points)| Ok(vtk::write_curve(path, points)?));
         let written = fields::write(folder, found, stress).and_then(|()| write_curves());
         if let Err(refusal) = self.session.agree(written) {

@@ -177,7 +177,7 @@ fn automatic_scale(facets: &[Facet], contacts: &[DrawnContact]) -> f64 {
 fn closed_gap(contact: &DrawnContact) -> f64 {
     let largest = contact.points.iter().map(|point| point.lambda).fold(0.0, f64::max);
     let pressing = contact.points.iter().filter(|point| point.lambda > PRESSES * largest);
-    pressing.map(|point| (point.un_1 - point.un_2).abs()).fold(0.0, f64::max)
+    pressing.map(|point| (point.displacement[0] - point.displacement[1]).abs()).fold(0.0, f64::max)
 }
 
 /// The largest of the numbers 1, 2 and 5 times a power of ten that is not above a positive number.
@@ -189,18 +189,20 @@ fn floor_number(number: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::data::ContactPoint;
+    use crate::geometry::Point;
     use crate::output::plot::bodies::samples::block;
     use crate::output::plot::drawing::{diverging, viridis};
+    use crate::recovery::TracePoint;
 
-    fn drawn(points: &[ContactPoint]) -> DrawnContact<'_> {
+    fn drawn(points: &[TracePoint]) -> DrawnContact<'_> {
         DrawnContact { title: "blocks", bodies: ["left", "right"], points, is_deformed: false, units: Default::default() }
     }
 
     fn draw(facets: &[Facet]) -> Result<String, OutputError> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deformed.svg");
-        let contact = [0.0, 0.5, 1.0].map(|s| ContactPoint { s, x: 1.0, y: s, nx: 1.0, ..ContactPoint::default() });
+        let contact =
+            [0.0, 0.5, 1.0].map(|s| TracePoint { arc: s, x: Point::new(1.0, s), normal: Point::x(), ..TracePoint::default() });
         let figure = DeformedFigure { title: "blocks", facets, contacts: &[drawn(&contact)], ..DeformedFigure::default() };
         figure.write(&path).map(|()| std::fs::read_to_string(path).unwrap())
     }
@@ -217,8 +219,8 @@ mod tests {
     #[test]
     fn bodies_that_press_are_drawn_touching() {
         let facets = block(0.0, 4, |x, _| [3e-5 * x, 0.0], |x, _| x);
-        let point = |lambda, un_1, un_2| ContactPoint { lambda, un_1, un_2, ..ContactPoint::default() };
-        let scale = |points: &[ContactPoint]| automatic_scale(&facets, &[drawn(points)]);
+        let point = |lambda, un_1, un_2| TracePoint { lambda, displacement: [un_1, un_2], ..TracePoint::default() };
+        let scale = |points: &[TracePoint]| automatic_scale(&facets, &[drawn(points)]);
         assert_eq!(scale(&[point(1.0, 0.6e-4, -0.4e-4), point(0.0, 1.0, 0.0)]), 100.0);
         assert_eq!(scale(&[point(1.0, -1e-2, 1e-2)]), 1.0);
         assert_eq!(scale(&[point(1.0, 1e-5, 1e-5)]), 2000.0, "they have moved together");
@@ -235,12 +237,12 @@ mod tests {
     #[test]
     fn contact_moves_with_the_bodies() {
         let facets = block(0.0, 3, |_, y| [0.0, 0.1 * y], |_, _| 1.0);
-        let point = ContactPoint { x: 1.0, y: 0.5, nx: 1.0, un_1: 0.2, un_2: 0.4, ..ContactPoint::default() };
+        let point = TracePoint { x: Point::new(1.0, 0.5), normal: Point::x(), displacement: [0.2, 0.4], ..TracePoint::default() };
         let edges = boundary_edges(&facets);
         let moved = moved_contact(&drawn(&[point]), &edges, 10.0);
         assert!((moved[0][0] - 4.0).abs() < 1e-6 && (moved[0][1] - 1.0).abs() < 1e-6, "{moved:?}");
         // Where contact is modelled on the deformed bodies it lies there already.
-        let there = ContactPoint { y: 0.55, x: 1.3, ..point };
+        let there = TracePoint { x: Point::new(1.3, 0.55), ..point };
         let moved = moved_contact(&DrawnContact { is_deformed: true, ..drawn(&[there]) }, &edges, 1.0);
         assert_eq!(moved, [[1.3, 0.55]]);
     }

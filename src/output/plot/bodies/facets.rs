@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use crate::element::StressMeasure;
-use crate::output::data::ContactPoint;
 use crate::output::error::OutputError;
 use crate::output::plot::diagrams::DrawnContact;
 use crate::output::plot::drawing::{Canvas, Chart, Colour, INK, Paint, WHITE, bounds, loops, path_data, tenths, unmatched};
+use crate::recovery::TracePoint;
 
 /// Points of a contact boundary that are drawn at most, up to a factor of two.
 const MOST_POINTS: usize = 1000;
@@ -119,12 +119,12 @@ pub fn some_of<T>(points: &[T], most: usize) -> impl Iterator<Item = &T> {
 }
 
 /// One point of it: normal to the boundary by the mean of both bodies' normal displacements, along it with the nearest boundary.
-pub fn moved_point(contact: &DrawnContact, p: &ContactPoint, boundary: &[[FacetCorner; 2]], scale: f64) -> [f64; 2] {
+pub fn moved_point(contact: &DrawnContact, p: &TracePoint, boundary: &[[FacetCorner; 2]], scale: f64) -> [f64; 2] {
     let there = if contact.is_deformed { 1.0 } else { 0.0 };
-    let u = displacement_near([p.x, p.y], boundary, there);
-    let (along, across) = (p.nx * u[1] - p.ny * u[0], 0.5 * (p.un_1 + p.un_2));
+    let u = displacement_near([p.x.x, p.x.y], boundary, there);
+    let (along, across) = (p.normal.x * u[1] - p.normal.y * u[0], 0.5 * (p.displacement[0] + p.displacement[1]));
     let left = scale - there;
-    [p.x + left * (across * p.nx - along * p.ny), p.y + left * (across * p.ny + along * p.nx)]
+    [p.x.x + left * (across * p.normal.x - along * p.normal.y), p.x.y + left * (across * p.normal.y + along * p.normal.x)]
 }
 
 /// Draws the outlines of the bodies as one path.

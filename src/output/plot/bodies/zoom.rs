@@ -8,12 +8,12 @@ use super::facets::{
 };
 use super::stress::{Colours, draw_colour_bar, draw_stress};
 use crate::element::StressMeasure;
-use crate::output::data::ContactPoint;
 use crate::output::error::OutputError;
 use crate::output::plot::diagrams::DrawnContact;
 use crate::output::plot::drawing::{
     BLUE, Canvas, Chart, INK, LegendCell, Letters, Paint, TextAnchor, WHITE, bounds, number_text,
 };
+use crate::recovery::TracePoint;
 
 /// An interval of a contact boundary that presses, and the part of the plane around it.
 #[derive(Clone, Debug)]
@@ -40,7 +40,7 @@ impl ContactZoom {
     /// the interval has no size.
     pub fn new(contact: &DrawnContact, interval: [f64; 2], facets: &[Facet]) -> Option<Self> {
         let boundary = boundary_edges(facets);
-        let points: Vec<ContactPoint> = pressing(contact.points, interval).copied().collect();
+        let points: Vec<TracePoint> = pressing(contact.points, interval).copied().collect();
         let moved = moved_contact(&DrawnContact { points: &points, ..*contact }, &boundary, 1.0);
         let [low, high] = bounds(moved.into_iter());
         let size = (high[0] - low[0]).max(high[1] - low[1]);
@@ -63,9 +63,9 @@ impl ContactZoom {
 }
 
 /// Points of a contact boundary within an interval.
-fn pressing(points: &[ContactPoint], [from, to]: [f64; 2]) -> impl Iterator<Item = &ContactPoint> {
+fn pressing(points: &[TracePoint], [from, to]: [f64; 2]) -> impl Iterator<Item = &TracePoint> {
     let tiny = 1e-9 * (to - from);
-    points.iter().filter(move |p| p.s >= from - tiny && p.s <= to + tiny)
+    points.iter().filter(move |p| p.arc >= from - tiny && p.arc <= to + tiny)
 }
 
 /// Draws `deformed_NAME_1.svg` and so on: the bodies around an interval that presses, coloured by von Mises stress, with their
@@ -113,12 +113,12 @@ pub fn write_zoom(
 /// Points on the contact boundary where it presses, each with the tip of its pressure, which points into body 2; and the largest
 /// pressure.
 fn profile(zoom: &ContactZoom, contact: &DrawnContact, boundary: &[[FacetCorner; 2]]) -> (Vec<[[f64; 2]; 2]>, f64) {
-    let points: Vec<&ContactPoint> = pressing(contact.points, zoom.interval).collect();
+    let points: Vec<&TracePoint> = pressing(contact.points, zoom.interval).collect();
     let largest = points.iter().map(|p| p.lambda).fold(0.0, f64::max);
-    let tip = |p: &&ContactPoint| {
+    let tip = |p: &&TracePoint| {
         let [x, y] = moved_point(contact, p, boundary, 1.0);
         let high = HEIGHT * zoom.size() * p.lambda.max(0.0) / largest;
-        [[x, y], [x + high * p.nx, y + high * p.ny]]
+        [[x, y], [x + high * p.normal.x, y + high * p.normal.y]]
     };
     let is_finite = |ends: &[[f64; 2]; 2]| ends.iter().flatten().all(|x| x.is_finite());
     (some_of(&points, MOST_POINTS).map(tip).filter(is_finite).collect(), largest)
@@ -127,12 +127,12 @@ fn profile(zoom: &ContactZoom, contact: &DrawnContact, boundary: &[[FacetCorner;
 /// Draws the names of both bodies, each on its side of the middle of the interval.
 fn draw_names(canvas: &mut Canvas, chart: &Chart, zoom: &ContactZoom, contact: &DrawnContact, boundary: &[[FacetCorner; 2]]) {
     let middle = 0.5 * (zoom.interval[0] + zoom.interval[1]);
-    let distance = |p: &&ContactPoint| (p.s - middle).abs();
+    let distance = |p: &&TracePoint| (p.arc - middle).abs();
     let nearest = pressing(contact.points, zoom.interval).min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let Some(p) = nearest else { return };
     let [x, y] = moved_point(contact, p, boundary, 1.0);
     let letters = Letters { has_rim: true, ..Letters::bold(14.0, INK).at(TextAnchor::Middle) };
     for (name, side) in contact.bodies.into_iter().zip([-AWAY, AWAY]) {
-        canvas.text(letters, chart.place([x + side * zoom.size() * p.nx, y + side * zoom.size() * p.ny]), name);
+        canvas.text(letters, chart.place([x + side * zoom.size() * p.normal.x, y + side * zoom.size() * p.normal.y]), name);
     }
 }

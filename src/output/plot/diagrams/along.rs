@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use crate::output::data::ContactPoint;
 use crate::output::error::OutputError;
 use crate::output::plot::drawing::{
     BLUE, Canvas, Chart, Colour, GREEN, GREY, HEAD, LegendCell, Paint, Scale, VERMILION, cut_off, number_text, widened,
 };
 use crate::output::units::{Unit, Units};
+use crate::recovery::TracePoint;
 
 /// Width and height of a figure, and what is to the right of the plot (pixels).
 const SIZE: [f64; 2] = [820.0, 460.0];
@@ -25,7 +25,7 @@ pub struct DrawnContact<'a> {
     /// Names of body 1 and body 2.
     pub bodies: [&'a str; 2],
     /// In order of arc length.
-    pub points: &'a [ContactPoint],
+    pub points: &'a [TracePoint],
     /// Whether they lie on the deformed bodies.
     pub is_deformed: bool,
     /// The units of the case.
@@ -51,7 +51,7 @@ struct DrawnCurve {
     name: String,
     colour: Colour,
     width: f64,
-    value: fn(&ContactPoint) -> f64,
+    value: fn(&TracePoint) -> f64,
 }
 
 /// Draws what happens along the contact boundary of a contact: `pressure_NAME.svg` has λ and the normal pressures -σ of both
@@ -71,13 +71,13 @@ pub fn write_along(folder: &Path, name: &str, contact: &DrawnContact) -> [Result
 fn figures<'a>([one, two]: [&str; 2], units: &'a Units) -> [AlongFigure<'a>; 3] {
     let pressures = vec![
         DrawnCurve { name: "contact pressure λ".into(), colour: BLUE, width: 2.0, value: |p| p.lambda },
-        DrawnCurve { name: format!("−σ of {one}"), colour: VERMILION, width: 1.1, value: |p| -p.sigma_1 },
-        DrawnCurve { name: format!("−σ of {two}"), colour: GREEN, width: 1.1, value: |p| -p.sigma_2 },
+        DrawnCurve { name: format!("−σ of {one}"), colour: VERMILION, width: 1.1, value: |p| -p.stress[0] },
+        DrawnCurve { name: format!("−σ of {two}"), colour: GREEN, width: 1.1, value: |p| -p.stress[1] },
     ];
     let gap = format!("gap from {one} to {two}, deformed");
     let displacements = vec![
-        DrawnCurve { name: format!("n·u of {one}"), colour: VERMILION, width: 1.1, value: |p| p.un_1 },
-        DrawnCurve { name: format!("n·u of {two}"), colour: GREEN, width: 2.6, value: |p| p.un_2 },
+        DrawnCurve { name: format!("n·u of {one}"), colour: VERMILION, width: 1.1, value: |p| p.displacement[0] },
+        DrawnCurve { name: format!("n·u of {two}"), colour: GREEN, width: 2.6, value: |p| p.displacement[1] },
     ];
     let figure = |file, quantity, has_zero, curves| AlongFigure { file, quantity, has_zero, cuts_peaks: false, curves };
     [
@@ -94,7 +94,7 @@ impl AlongFigure<'_> {
             range = [range[0].min(0.0), range[1].max(0.0)];
         }
         let (range, remark) = if self.cuts_peaks { cut_peaks(range, points, &self.curves) } else { (range, None) };
-        let ends = [points[0].s, points[points.len() - 1].s];
+        let ends = [points[0].arc, points[points.len() - 1].arc];
         let x = Scale::linear(widened(ends, 0.0), 8, "arc length s along the contact boundary", units.length());
         let y = Scale::linear(widened(range, 0.05), 6, self.quantity.0, self.quantity.1);
         let crosses_zero = y.range[0] < 0.0 && y.range[1] > 0.0;
@@ -120,8 +120,8 @@ impl DrawnCurve {
 
     /// Draws the quantity, broken where it jumps or is not a number. More jumps than can be told apart are no breaks, and of many
     /// points those stay that can be seen.
-    fn draw(&self, canvas: &mut Canvas, chart: &Chart, points: &[ContactPoint]) {
-        let places: Vec<[f64; 2]> = points.iter().map(|p| [p.s, (self.value)(p)]).collect();
+    fn draw(&self, canvas: &mut Canvas, chart: &Chart, points: &[TracePoint]) {
+        let places: Vec<[f64; 2]> = points.iter().map(|p| [p.arc, (self.value)(p)]).collect();
         let is_jump = |a: &[f64; 2], b: &[f64; 2]| a[0] >= b[0] && a[1] != b[1];
         let jumps: Vec<&[[f64; 2]]> = places.windows(2).filter(|pair| is_jump(&pair[0], &pair[1])).collect();
         let breaks = jumps.len() <= MOST_JUMPS;
@@ -150,7 +150,7 @@ fn thinned(run: &[[f64; 2]], column: f64) -> Vec<[f64; 2]> {
 }
 
 /// Smallest and largest finite value of all curves.
-fn finite_range(path: &Path, points: &[ContactPoint], curves: &[DrawnCurve]) -> Result<[f64; 2], OutputError> {
+fn finite_range(path: &Path, points: &[TracePoint], curves: &[DrawnCurve]) -> Result<[f64; 2], OutputError> {
     let values = curves.iter().flat_map(|curve| points.iter().map(curve.value)).filter(|value| value.is_finite());
     let range = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
     if range[0] > range[1] {
@@ -160,10 +160,10 @@ fn finite_range(path: &Path, points: &[ContactPoint], curves: &[DrawnCurve]) -> 
 }
 
 /// Cuts peaks that would squeeze the rest: the range shown, and a remark if it was cut.
-fn cut_peaks([low, high]: [f64; 2], points: &[ContactPoint], curves: &[DrawnCurve]) -> ([f64; 2], Option<String>) {
+fn cut_peaks([low, high]: [f64; 2], points: &[TracePoint], curves: &[DrawnCurve]) -> ([f64; 2], Option<String>) {
     let pieces: Vec<(f64, f64)> = curves
         .iter()
-        .flat_map(|curve| points.windows(2).map(|pair| ((curve.value)(&pair[0]), pair[1].s - pair[0].s)))
+        .flat_map(|curve| points.windows(2).map(|pair| ((curve.value)(&pair[0]), pair[1].arc - pair[0].arc)))
         .filter(|(value, _)| value.is_finite())
         .collect();
     let top = cut_off(high, pieces).unwrap_or(high);
@@ -178,23 +178,23 @@ fn cut_peaks([low, high]: [f64; 2], points: &[ContactPoint], curves: &[DrawnCurv
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Point;
 
     /// A pressure that steps from 1 to 2 at s = 1, and beyond s = 1.99 to `peak`.
-    fn stepped(peak: f64) -> Vec<ContactPoint> {
+    fn stepped(peak: f64) -> Vec<TracePoint> {
         let values = [(0.0, 1.0), (1.0, 1.0), (1.0, 2.0), (1.99, 2.0), (1.99, peak), (2.0, peak)];
-        let point = |(s, lambda)| ContactPoint {
-            s,
-            x: s,
-            ny: 1.0,
+        let point = |(s, lambda)| TracePoint {
+            arc: s,
+            x: s * Point::x(),
+            normal: Point::y(),
             lambda,
-            sigma_1: -lambda,
-            sigma_2: -lambda,
-            ..ContactPoint::default()
+            stress: [-lambda; 2],
+            ..TracePoint::default()
         };
         values.into_iter().map(point).collect()
     }
 
-    fn draw(file: &str, points: &[ContactPoint]) -> Result<String, OutputError> {
+    fn draw(file: &str, points: &[TracePoint]) -> Result<String, OutputError> {
         let folder = tempfile::tempdir().unwrap();
         let contact = DrawnContact {
             title: "bars\u{1} <1 & 2>\u{1b}[0m",
@@ -245,7 +245,7 @@ mod tests {
     #[test]
     fn long_labels_of_ticks_have_room_beside_the_name_of_the_axis() {
         let mut points = stepped(2.0);
-        points.iter_mut().for_each(|point| (point.un_1, point.un_2) = (-0.0152 - 0.0001 * point.s, -0.0151));
+        points.iter_mut().for_each(|point| point.displacement = [-0.0152 - 0.0001 * point.arc, -0.0151]);
         let figure = draw("displacement", &points).unwrap();
         let labels = figure.lines().filter(|line| line.contains(">−0.01") && line.contains("text-anchor=\"end\""));
         let lefts: Vec<f64> = labels
@@ -261,9 +261,9 @@ mod tests {
 
     #[test]
     fn a_fine_boundary_makes_no_large_figure() {
-        let at = |k: usize| ContactPoint { s: k as f64 / 2.0, lambda: (k as f64 * 0.7).sin(), ..ContactPoint::default() };
-        let points: Vec<ContactPoint> = (0..200_000).map(at).collect();
-        let jumping: Vec<ContactPoint> = (0..200_000).map(|k| ContactPoint { s: (k / 2) as f64, ..at(k) }).collect();
+        let at = |k: usize| TracePoint { arc: k as f64 / 2.0, lambda: (k as f64 * 0.7).sin(), ..TracePoint::default() };
+        let points: Vec<TracePoint> = (0..200_000).map(at).collect();
+        let jumping: Vec<TracePoint> = (0..200_000).map(|k| TracePoint { arc: (k / 2) as f64, ..at(k) }).collect();
         for points in [points, jumping] {
             let figure = draw("pressure", &points).unwrap();
             assert!(figure.len() < 300_000, "{} bytes", figure.len());
@@ -280,10 +280,10 @@ mod tests {
     #[test]
     fn what_is_not_a_number_is_left_out() {
         let mut points = stepped(2.0);
-        points[1].un_1 = f64::NAN;
+        points[1].displacement[0] = f64::NAN;
         assert!(!draw("displacement", &points).unwrap().contains("NaN"));
         for point in &mut points {
-            (point.un_1, point.un_2) = (f64::NAN, f64::INFINITY);
+            point.displacement = [f64::NAN, f64::INFINITY];
         }
         assert!(matches!(draw("displacement", &points), Err(OutputError::Figure { .. })));
         assert!(matches!(draw("displacement", &[]), Err(OutputError::Figure { .. })));
