@@ -30,7 +30,7 @@ pub mod schema;
 pub use acting::mean::{MeanSupport, MeanWay};
 pub use acting::rigid::{Plate, Tool};
 pub use asked::accuracy::NO_CONTACT;
-pub use asked::exact::{BodyExact, ContactExact, Exact, Expected, ExpectedDisplacement, LambdaExact};
+pub use asked::exact::{BodyExact, ContactExact, Exact, Expected, ExpectedAt, LambdaExact};
 pub use asked::output::{Output, Probe, UnitNames};
 pub use asked::solver::Solver;
 pub use asked::steps::LoadFactor;

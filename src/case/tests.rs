@@ -121,7 +121,7 @@ fn a_full_case_is_read() {
     assert_eq!(case.probes, [Probe { name: "tip".into(), point: [1.0, 2.0], body: "upper.left".into() }]);
     assert!(case.exact.must_hold);
     assert_eq!(case.exact.energy, Some(Expected { value: 2.6e-3, tolerance: 2e-5 }));
-    assert!(matches!(&case.exact.contacts[0].lambda, Some(LambdaExact::Points { value, .. }) if value == &[0.925]));
+    assert!(matches!(&case.exact.contacts[0].lambda, Some(LambdaExact::Points(exact)) if exact.value == [0.925]));
     let body = &case.exact.bodies[0];
     assert_eq!(body.displacement.as_ref().unwrap().value, [[6.3e-4, -7.7e-4]]);
     assert_eq!(body.stress.as_ref().unwrap()[1].value(&[2.0, 3.0]), 6.0);

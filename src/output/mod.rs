@@ -3,12 +3,12 @@
 //! | file | written by |
 //! |---|---|
 //! | `summary.json` | [`Summary::write`] |
-//! | `contacts.csv` | [`write_contacts`] |
-//! | `contact_NAME.csv` | [`write_contact`] |
+//! | `contacts.csv` | [`contacts_table`] |
+//! | `contact_NAME.csv` | [`contact_table`] |
 //! | `fields.vtu`, or `fields.pvtu` and its pieces; `contact_NAME.vtu` | [`vtk`] |
 //! | `pressure_NAME.svg`, `gap_NAME.svg`, `displacement_NAME.svg`, `deformed.svg`, `field_sigma_1.svg`, `deformed_NAME_1.svg`, `accuracy.svg`, `steps.svg` | [`plot`] |
 //! | `report.html` | [`report`] |
-//! | `steps.csv` | [`write_steps`] |
+//! | `steps.csv` | [`steps_table`] |
 //! | `case.toml`, `case.msh`: the case as it was run, and its mesh, if that is not large | `run` |
 //! | `fields.pvd`, `contact_NAME.pvd`: the files of each load step, which lie in `steps/0001` and so on | [`vtk`] |
 //!
@@ -26,7 +26,7 @@ pub mod summary;
 mod units;
 
 pub use clock::clock;
-pub use data::{CONTACTS, SIGNS, quoted, vtk, write_contact, write_contacts, write_steps};
+pub use data::{CONTACTS, SIGNS, contact_table, contacts_table, csv_line, quoted, steps_table, vtk, write_text};
 pub use error::OutputError;
 pub use folder::{ResultFolder, entries, recover, remove_if_there};
 pub use summary::{Summary, machine, whole_machine};

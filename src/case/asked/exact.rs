@@ -128,14 +128,7 @@ pub struct ContactExact {
 #[derive(Clone, Debug, PartialEq)]
 pub enum LambdaExact {
     /// Values at points; at a segment end the mean of both sides.
-    Points {
-        /// Where.
-        at: Vec<[f64; 2]>,
-        /// One per point.
-        value: Vec<f64>,
-        /// Relative tolerance, > 0.
-        tolerance: f64,
-    },
+    Points(ExpectedAt<f64>),
     /// A formula of `x, y` on the curve; its error is the L2 norm.
     Formula {
         /// λ(x, y).
@@ -151,7 +144,7 @@ pub struct BodyExact {
     /// Name of the body, or of a part of one.
     pub name: String,
     /// Displacement at points.
-    pub displacement: Option<ExpectedDisplacement>,
+    pub displacement: Option<ExpectedAt<[f64; 2]>>,
     /// Displacement field, formulas of `x, y`.
     pub u: Option<[Formula; 2]>,
     /// Stress field xx, yy, xy, zz, formulas of `x, y`; its error is the energy norm, to which zz counts in bodies of revolution
@@ -159,14 +152,14 @@ pub struct BodyExact {
     pub stress: Option<[Formula; 4]>,
 }
 
-/// Displacements that are expected at points.
+/// What is expected at points.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ExpectedDisplacement {
+pub struct ExpectedAt<T> {
     /// Where.
     pub at: Vec<[f64; 2]>,
     /// One per point.
-    pub value: Vec<[f64; 2]>,
-    /// Relative to the largest |u|, > 0.
+    pub value: Vec<T>,
+    /// Relative to each value, of displacements to the largest |u|; > 0.
     pub tolerance: f64,
 }
 
@@ -197,8 +190,7 @@ fn read_contact(section: &Section, root: &Section) -> Option<ContactExact> {
 fn read_lambda(section: &Section) -> Option<LambdaExact> {
     let tolerance = section.required(TOLERANCE);
     if !section.has("formula") {
-        let (at, value) = read_points(section, PRESSURES)?;
-        return Some(LambdaExact::Points { at, value, tolerance: tolerance? });
+        return read_points(section, PRESSURES, tolerance).map(LambdaExact::Points);
     }
     if section.has_any(&["at", "value"]) {
         section.problem(&["formula"], "stands beside at and value; give either formula or points".into());
@@ -210,11 +202,8 @@ fn read_lambda(section: &Section) -> Option<LambdaExact> {
 
 fn read_body(section: &Section, plane: Plane, root: &Section) -> Option<BodyExact> {
     section.check_name(&[], "body", section.name(), region_names(root).into_iter());
-    let displacement = section.optional_table("displacement").and_then(|displacement| {
-        let tolerance = displacement.required(TOLERANCE);
-        let (at, value) = read_points(&displacement, DISPLACEMENTS)?;
-        Some(ExpectedDisplacement { at, value, tolerance: tolerance? })
-    });
+    let displacement = section.optional_table("displacement");
+    let displacement = displacement.and_then(|inner| read_points(&inner, DISPLACEMENTS, inner.required(TOLERANCE)));
     let (u, stress) = (section.optional(U), section.optional(STRESS));
     let stress: Option<[Formula; 4]> = section.made("stress", stress, |mut all| {
         if all.len() == 3 && plane == Plane::Revolution {
@@ -236,7 +225,7 @@ fn check_not_zero(section: &Section, key: &str, formulas: &[Formula]) {
 }
 
 /// `at` and `value`, of the same length.
-fn read_points<T: FromValue>(section: &Section, value: Key<Vec<T>>) -> Option<(Vec<[f64; 2]>, Vec<T>)> {
+fn read_points<T: FromValue>(section: &Section, value: Key<Vec<T>>, tolerance: Option<f64>) -> Option<ExpectedAt<T>> {
     let (at, value) = (section.required(AT), section.required(value));
     let (at, value) = (at?, value?);
     if at.len() != value.len() {
@@ -244,5 +233,5 @@ fn read_points<T: FromValue>(section: &Section, value: Key<Vec<T>>) -> Option<(V
         section.problem(&["value"], words);
         return None;
     }
-    Some((at, value))
+    Some(ExpectedAt { at, value, tolerance: tolerance? })
 }

@@ -1,11 +1,6 @@
 //! Tables: all contacts, the points of one contact boundary, and load steps, with a row each.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
-use std::path::Path;
-
-use super::{SIGNS, quoted};
-use crate::output::error::OutputError;
+use super::{SIGNS, csv_line, quoted};
 use crate::output::summary::{Status, StepSummary, Summary};
 use crate::recovery::TracePoint;
 
@@ -17,96 +12,58 @@ const ROUNDING: f64 = 1e-6;
 
 const COLUMNS: &str = "name,boundary_1,boundary_2,force,direction_x,direction_y,x,y,width,pressure_max,trust,verdict";
 
-/// Writes `contacts.csv`: a line with the names of the columns, and one for each contact of the summary, given by its name and its
-/// two boundaries. What is not known, or does not apply, is left empty.
-///
-/// # Errors
-/// The operating system refuses.
-pub fn write_contacts<'a>(
-    path: &Path,
-    contacts: impl Iterator<Item = (&'a str, &'a [String; 2])>,
-    summary: &Summary,
-) -> Result<(), OutputError> {
-    write_table(path, |out| contact_rows(out, contacts, summary))
-}
-
-fn contact_rows<'a>(
-    out: &mut impl Write,
-    contacts: impl Iterator<Item = (&'a str, &'a [String; 2])>,
-    summary: &Summary,
-) -> io::Result<()> {
-    writeln!(out, "{COLUMNS}")?;
-    for (name, between) in contacts {
-        let Some(contact) = summary.contact.get(name) else { continue };
+/// The text of `contacts.csv`: a line with the names of the columns, and one for each contact of the summary, given by its name and
+/// its two boundaries. What is not known, or does not apply, is left empty.
+pub fn contacts_table(contacts: &[(&str, &[String; 2])], summary: &Summary) -> String {
+    let row = |(name, [one, two]): &(&str, &[String; 2])| {
+        let contact = summary.contact.get(*name)?;
         let least = ROUNDING * contact.force.unwrap_or(0.0).abs();
         let size = contact.resultant.map(|[x, y]| x.hypot(y)).filter(|size| *size > least);
         let along = |axis: usize| Some(contact.resultant?[axis] / size?);
         let place = |axis: usize| contact.place.map(|place| place[axis]);
         let numbers = [contact.force, along(0), along(1), place(0), place(1), contact.width(), contact.pressure_max];
-        write!(out, "{},{},{}", quoted(name), quoted(&between[0]), quoted(&between[1]))?;
-        for number in numbers {
-            write!(out, ",{}", number_cell(number))?;
-        }
         let trust = contact.judged.trust.map_or(String::new(), |trust| trust.to_string());
-        writeln!(out, ",{trust},{}", quoted(contact.judged.verdict.as_deref().unwrap_or_default()))?;
-    }
-    Ok(())
+        let verdict = quoted(contact.judged.verdict.as_deref().unwrap_or_default());
+        Some(csv_line(&[&[*name, one, two].map(quoted)[..], &numbers.map(number_cell), &[trust, verdict]].concat()))
+    };
+    format!("{COLUMNS}\n{}", contacts.iter().filter_map(row).collect::<String>())
 }
 
-/// Writes `contact_NAME.csv`: [`SIGNS`] as lines that start with `# `, the names of the columns, one line per point.
+/// The text of `contact_NAME.csv`: [`SIGNS`] as lines that start with `# `, the names of the columns, one line per point.
 ///
 /// Numbers are the shortest that read back as the same double.
-///
-/// # Errors
-/// The operating system refuses.
-pub fn write_contact(path: &Path, points: &[TracePoint]) -> Result<(), OutputError> {
-    write_table(path, |out| point_rows(out, points))
-}
-
-fn point_rows(out: &mut impl Write, points: &[TracePoint]) -> io::Result<()> {
-    for line in SIGNS.iter() {
-        writeln!(out, "# {line}")?;
-    }
-    writeln!(out, "s,x,y,nx,ny,lambda,gap,un_1,un_2,sigma_1,sigma_2")?;
-    for p in points {
-        write!(out, "{:?},{:?},{:?},{:?},{:?},{:?},", p.arc, p.x.x, p.x.y, p.normal.x, p.normal.y, p.lambda)?;
-        writeln!(out, "{:?},{:?},{:?},{:?},{:?}", p.gap, p.displacement[0], p.displacement[1], p.stress[0], p.stress[1])?;
-    }
-    Ok(())
+pub fn contact_table(points: &[TracePoint]) -> String {
+    let head = SIGNS.iter().map(|line| format!("# {line}\n"));
+    let row = |p: &TracePoint| {
+        let [[un_1, un_2], [sigma_1, sigma_2]] = [p.displacement, p.stress];
+        let numbers = [p.arc, p.x.x, p.x.y, p.normal.x, p.normal.y, p.lambda, p.gap, un_1, un_2, sigma_1, sigma_2];
+        csv_line(&numbers.map(|number| format!("{number:?}")))
+    };
+    let columns = "s,x,y,nx,ny,lambda,gap,un_1,un_2,sigma_1,sigma_2\n".to_owned();
+    head.chain([columns]).chain(points.iter().map(row)).collect()
 }
 
 /// A cell of the table with the name of its column; empty where nothing is known.
 type RowValue = (String, Option<f64>);
 
-/// Writes `steps.csv`: a line with the names of the columns, as `summary.json` names the values, and one line per step. What a
+/// The text of `steps.csv`: a line with the names of the columns, as `summary.json` names the values, and one line per step. What a
 /// step does not know is left empty.
-///
-/// # Errors
-/// The operating system refuses.
-pub fn write_steps(path: &Path, steps: &[StepSummary]) -> Result<(), OutputError> {
-    write_table(path, |out| step_rows(out, steps))
-}
-
-fn step_rows(out: &mut impl Write, steps: &[StepSummary]) -> io::Result<()> {
+pub fn steps_table(steps: &[StepSummary]) -> String {
     let rows: Vec<Vec<RowValue>> = steps.iter().map(cells).collect();
     // A step that could not be solved knows fewer values than the others.
-    let Some(columns) = rows.iter().max_by_key(|row| row.len()) else { return Ok(()) };
-    let names: Vec<String> = columns.iter().map(|(name, _)| quoted(name)).collect();
-    writeln!(out, "step,status,iterations,{}", names.join(","))?;
-    for (step, row) in steps.iter().zip(&rows) {
+    let Some(columns) = rows.iter().max_by_key(|row| row.len()) else { return String::new() };
+    let names = ["step", "status", "iterations"].into_iter().chain(columns.iter().map(|(name, _)| name.as_str()));
+    let row = |(step, row): (&StepSummary, &Vec<RowValue>)| {
         let status = match step.status {
             Status::Converged => "converged",
             Status::Unresolved => "unresolved",
             Status::NotConverged | Status::Interrupted => "not_converged",
         };
-        write!(out, "{},{status},{}", step.step, step.iterations.iter().sum::<usize>())?;
-        for (name, _) in columns {
-            let value = row.iter().find(|(own, _)| own == name).and_then(|(_, value)| *value);
-            write!(out, ",{}", number_cell(value))?;
-        }
-        writeln!(out)?;
-    }
-    Ok(())
+        let first = [step.step.to_string(), status.into(), step.iterations.iter().sum::<usize>().to_string()];
+        let value = |name: &String| row.iter().find(|(own, _)| own == name).and_then(|(_, value)| *value);
+        csv_line(&first.into_iter().chain(columns.iter().map(|(name, _)| number_cell(value(name)))).collect::<Vec<_>>())
+    };
+    csv_line(&names.map(quoted).collect::<Vec<_>>()) + &steps.iter().zip(&rows).map(row).collect::<String>()
 }
 
 /// Everything of a step that is a number.
@@ -145,15 +102,6 @@ fn vector<const N: usize>(name: &str, axes: [&str; N], vector: Option<[f64; N]>)
     std::array::from_fn(|k| (format!("{name}.{}", axes[k]), vector.map(|vector| vector[k])))
 }
 
-/// Writes a table by its lines.
-fn write_table(path: &Path, rows: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), OutputError> {
-    let write = |file: File| {
-        let mut out = BufWriter::new(file);
-        rows(&mut out).and_then(|()| out.flush())
-    };
-    File::create(path).and_then(write).map_err(OutputError::unwritten(path))
-}
-
 /// A number as a cell of a table; nothing stands there if it is not known, or not finite.
 fn number_cell(number: Option<f64>) -> String {
     number.filter(|number| number.is_finite()).map_or(String::new(), |number| format!("{number:?}"))
@@ -172,9 +120,7 @@ mod tests {
             let contact = ContactSummary { force: Some(2.0), resultant: Some(resultant), ..ContactSummary::default() };
             let summary = Summary { contact: [("c".to_owned(), contact)].into(), ..Summary::default() };
             let between = ["a".to_owned(), "b".to_owned()];
-            let mut text = Vec::new();
-            contact_rows(&mut text, [("c", &between)].into_iter(), &summary).unwrap();
-            let text = String::from_utf8(text).unwrap();
+            let text = contacts_table(&[("c", &between)], &summary);
             let row: Vec<String> = text.lines().nth(1).expect("a row").split(',').map(String::from).collect();
             [row[4].clone(), row[5].clone()]
         };
@@ -198,9 +144,7 @@ mod tests {
             };
             let summary = Summary { contact: [("a,b".to_owned(), contact.clone())].into(), ..Summary::default() };
             let between = ["one.rim".to_owned(), "two \"x\"".to_owned()];
-            let mut text = Vec::new();
-            contact_rows(&mut text, [("a,b", &between), ("none", &between)].into_iter(), &summary).unwrap();
-            let text = String::from_utf8(text).unwrap();
+            let text = contacts_table(&[("a,b", &between), ("none", &between)], &summary);
             let lines: Vec<&str> = text.lines().collect();
             prop_assert_eq!(lines.len(), 2, "what is not solved has no row");
             let rest = lines[1].strip_prefix("\"a,b\",one.rim,\"two \"\"x\"\"\",").expect("names");
@@ -226,9 +170,7 @@ mod tests {
             stress: [f64::MIN_POSITIVE, -1.5e-9],
             ..TracePoint::default()
         };
-        let mut text = Vec::new();
-        point_rows(&mut text, &[point, point]).unwrap();
-        let text = String::from_utf8(text).unwrap();
+        let text = contact_table(&[point, point]);
         let mut lines = text.lines().skip_while(|line| line.starts_with("# "));
         assert_eq!(lines.next(), Some("s,x,y,nx,ny,lambda,gap,un_1,un_2,sigma_1,sigma_2"));
         let row: Vec<f64> = lines.next().unwrap().split(',').map(|number| number.parse().unwrap()).collect();
@@ -241,9 +183,7 @@ mod tests {
 
     #[test]
     fn signs_are_stated_before_the_table() {
-        let mut text = Vec::new();
-        point_rows(&mut text, &[]).unwrap();
-        let text = String::from_utf8(text).unwrap();
+        let text = contact_table(&[]);
         assert!(SIGNS.iter().all(|sign| text.contains(&format!("# {sign}\n"))));
         assert_eq!(text.lines().count(), SIGNS.len() + 1);
     }
@@ -264,9 +204,7 @@ mod tests {
     fn a_step_is_a_row_and_what_it_does_not_know_is_empty() {
         let unsolved =
             StepSummary { contact: Default::default(), status: Status::NotConverged, iterations: Vec::new(), ..step(1) };
-        let mut text = Vec::new();
-        step_rows(&mut text, &[unsolved, step(2)]).unwrap();
-        let text = String::from_utf8(text).unwrap();
+        let text = steps_table(&[unsolved, step(2)]);
         let lines: Vec<&str> = text.lines().collect();
         assert!(lines[0].starts_with("step,status,iterations,factors.press,\"contact.a,b.force\""), "{text}");
         assert_eq!(lines[1], "1,not_converged,0,0.5,,,,,,,,,");

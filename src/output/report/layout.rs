@@ -1,10 +1,10 @@
 //! The page as a whole.
 
-use std::fs;
 use std::path::Path;
 
 use super::page::ReportPage;
 use super::{drawings, history, numbers, stresses, trust, verdict};
+use crate::output::data::write_text;
 use crate::output::error::OutputError;
 use crate::output::markup::{document, escape, section, verbatim};
 
@@ -13,8 +13,7 @@ use crate::output::markup::{document, escape, section, verbatim};
 /// # Errors
 /// The operating system refuses.
 pub fn write_report(folder: &Path, page: &ReportPage) -> Result<(), OutputError> {
-    let path = folder.join("report.html");
-    fs::write(&path, html(folder, page)).map_err(OutputError::unwritten(&path))
+    write_text(&folder.join("report.html"), &html(folder, page))
 }
 
 /// The text of the page.

@@ -2,7 +2,7 @@
 //! expected values have places and formulas values.
 
 use crate::body::{Body, BodyPart, HeldMode, MeanHold, Springs, Support, rigid_displacement};
-use crate::case::{BodyExact, Case, ContactExact, LambdaExact};
+use crate::case::{BodyExact, Case, ContactExact, ExpectedAt, LambdaExact};
 use crate::contact::ContactBoundary;
 use crate::discretisation::Contact;
 use crate::geometry::{Coordinates, Formula, Point, Rounded, gauss_points};
@@ -136,7 +136,7 @@ pub fn check_exact(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
 
 /// Points of an expected pressure lie on the boundaries of its contact, or between them.
 fn check_points(case: &Case, mesh: &MacroMesh, exact: &ContactExact) -> Result<(), String> {
-    let Some(LambdaExact::Points { at, .. }) = &exact.lambda else { return Ok(()) };
+    let Some(LambdaExact::Points(ExpectedAt { at, .. })) = &exact.lambda else { return Ok(()) };
     let Some(pair) = case.contacts.iter().find(|pair| pair.name == exact.name) else { return Ok(()) };
     let sides = pair.between.each_ref().map(|name| mesh.edges_of(name));
     let longest = sides.iter().copied().flatten().map(|&edge| mesh.edge_length(edge)).fold(0.0, f64::max);

@@ -1,7 +1,7 @@
 //! A solution made into a summary, with its files.
 
 use crate::output::summary::{EstimateSummary, Status, Summary};
-use crate::output::{CONTACTS, write_contacts};
+use crate::output::{CONTACTS, contacts_table, write_text};
 use crate::procedure::{Solved, Work};
 use crate::recovery::Evaluation;
 use crate::run::outcome::RunError;
@@ -53,10 +53,10 @@ impl Run<'_> {
         let summary = Summary { accuracy, status, ..summary };
         let mut summary = Summary { reason: Some(reason + &remarks(&summary)), ..summary };
         summary.times_thickness(self.case.thickness);
-        let contacts = self.case.contacts.iter().map(|pair| (pair.name.as_str(), &pair.between));
-        let write =
-            || if summary.contact.is_empty() { Ok(()) } else { write_contacts(&self.files.join(CONTACTS), contacts, &summary) };
-        self.on_first(write)?;
+        if !summary.contact.is_empty() {
+            let contacts: Vec<_> = self.case.contacts.iter().map(|pair| (pair.name.as_str(), &pair.between)).collect();
+            self.on_first(|| write_text(&self.files.join(CONTACTS), &contacts_table(&contacts, &summary)))?;
+        }
         Ok(summary)
     }
 

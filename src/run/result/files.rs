@@ -6,7 +6,7 @@ use crate::discretisation::Contact;
 use crate::mesh::MacroMesh;
 use crate::output::report::{ReportPage, write_report};
 use crate::output::summary::{BodySummary, Status, Summary};
-use crate::output::{OutputError, ResultFolder, vtk, write_contact};
+use crate::output::{OutputError, ResultFolder, contact_table, vtk, write_text};
 use crate::recovery::{Evaluation, TracePoint};
 use crate::run::Run;
 use crate::run::accuracy::ADAPTED_MESH;
@@ -59,8 +59,7 @@ impl Run<'_> {
         }
         if summary.accuracy.as_ref().is_some_and(|steps| !steps.is_empty()) {
             let own = mesh.without_tools(|name| self.case.tool_of(name).is_some());
-            let path = folder.path(ADAPTED_MESH);
-            left_out.extend(std::fs::write(&path, own.to_gmsh()).map_err(OutputError::unwritten(&path)).err());
+            left_out.extend(write_text(&folder.path(ADAPTED_MESH), &own.to_gmsh()).err());
         }
         folder.write_summary(summary)?;
         folder.commit()
@@ -91,7 +90,7 @@ impl Run<'_> {
         if self.session.rank() == 0 {
             let path = |contact: &Contact| folder.join(format!("contact_{}.csv", contact.pair.name));
             let tables = found.problem.contacts.iter().zip(traces);
-            tables.for_each(|(contact, points)| self.spare(write_contact(&path(contact), points)));
+            tables.for_each(|(contact, points)| self.spare(write_text(&path(contact), &contact_table(points))));
         }
         if !self.case.output.fields {
             return Ok(());

@@ -4,7 +4,7 @@
 use crate::case::LoadStep;
 use crate::discretisation::Scene;
 use crate::output::summary::{Status, StepSummary, Summary};
-use crate::output::{CONTACTS, OutputError, plot, vtk, write_steps};
+use crate::output::{CONTACTS, OutputError, plot, steps_table, vtk, write_text};
 use crate::procedure::{Procedure, Solved};
 use crate::run::Run;
 use crate::run::outcome::RunError;
@@ -97,7 +97,7 @@ impl Run<'_> {
     /// Writes what tells all steps: the table, the figure, and the series of fields and contacts.
     fn write_series(&self, rows: &[StepSummary]) -> Result<(), OutputError> {
         let files = &self.files;
-        write_steps(&files.join("steps.csv"), rows)?;
+        write_text(&files.join("steps.csv"), &steps_table(rows))?;
         let count = rows.len();
         let names: Vec<&String> = self.case.contacts.iter().map(|pair| &pair.name).collect();
         let last = files.join(folder(count));

@@ -1,6 +1,6 @@
 //! A solution against the exact or reference values of its case.
 
-use crate::case::{Case, LambdaExact};
+use crate::case::{Case, ExpectedAt, LambdaExact};
 use crate::geometry::Point;
 use crate::mesh::Region;
 use crate::recovery::Evaluation;
@@ -62,7 +62,7 @@ pub fn compare(case: &Case, found: &Evaluation) -> Result<Errors, RunError> {
                 }
                 (pressure.error(formula), *tolerance)
             }
-            Some(LambdaExact::Points { at, value, tolerance }) => {
+            Some(LambdaExact::Points(ExpectedAt { at, value, tolerance })) => {
                 let one = |(x, value): (&[f64; 2], &f64)| (pressure.at_foot(Point::new(x[0], x[1])) / value - 1.0).abs();
                 (at.iter().zip(value).map(one).fold(0.0, larger), *tolerance)
             }

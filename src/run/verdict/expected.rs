@@ -1,6 +1,6 @@
 //! What a case expects beside what was found, as the report shows it.
 
-use crate::case::{BodyExact, Case, ContactExact, Expected, LambdaExact};
+use crate::case::{BodyExact, Case, ContactExact, Expected, ExpectedAt, LambdaExact};
 use crate::output::Summary;
 use crate::output::plot::number_to;
 use crate::output::report::ExpectedValue;
@@ -29,7 +29,7 @@ pub fn expected_values(case: &Case, summary: &Summary) -> Vec<ExpectedValue> {
         all.extend(force.iter().map(|expected| number(format!("force of {name}"), format!("force_{name}"), expected, found)));
         all.extend(lambda.iter().map(|lambda| {
             let (expected, tolerance) = match lambda {
-                LambdaExact::Points { at, value, tolerance } => (points(at.len(), value), *tolerance),
+                LambdaExact::Points(ExpectedAt { at, value, tolerance }) => (points(at.len(), value), *tolerance),
                 LambdaExact::Formula { formula, tolerance } => (formula.text().to_owned(), *tolerance),
             };
             words(format!("pressure of {name}"), format!("lambda_{name}"), expected, Some(tolerance))

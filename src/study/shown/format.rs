@@ -3,17 +3,16 @@
 use serde::{Serialize, Serializer};
 use serde_json::Value;
 
-use crate::output::quoted;
+use crate::output::{csv_line, quoted};
 use crate::study::table::lines::Line;
 use crate::study::table::repeats::condensed;
 use crate::study::table::rows::{Column, ColumnKind, Table};
 
 /// Comma-separated values: names of the columns, then one line per run. What is not known is empty.
 pub fn csv(table: &Table) -> String {
-    let line = |cells: Vec<String>| cells.join(",") + "\n";
-    let header = line(table.columns.iter().map(|column| quoted(&column.name)).collect());
-    let rows = table.rows.iter().map(|row| line(row.iter().map(|value| quoted(&plain(value))).collect()));
-    header + &rows.collect::<String>()
+    let header = table.columns.iter().map(|column| quoted(&column.name)).collect();
+    let rows = table.rows.iter().map(|row| row.iter().map(|value| quoted(&plain(value))).collect());
+    [header].into_iter().chain(rows).map(|cells: Vec<String>| csv_line(&cells)).collect()
 }
 
 /// An object with the rows as a list of objects, whose keys are the names of the columns, and the lines of the figure.

@@ -1,10 +1,10 @@
 //! Load steps: what presses against how far it has gone, and how the contact grows.
 
-use std::fs;
 use std::path::Path;
 
 use super::blocks::{DiagramBlock, diagrams};
 use super::diagram::{Diagram, DiagramLine, Mark};
+use crate::output::data::write_text;
 use crate::output::error::OutputError;
 use crate::output::plot::drawing::{Axis, LegendCell};
 use crate::output::summary::{Status, StepContact, StepSummary};
@@ -23,8 +23,7 @@ type OfStep<'s> = Box<dyn Fn(&StepSummary) -> Option<f64> + 's>;
 /// No step has a contact; the operating system refuses.
 pub fn write_step_figure(path: &Path, title: &str, steps: &[StepSummary], units: &Units) -> Result<(), OutputError> {
     let failed = || OutputError::Figure { path: path.into(), reason: "no step has a contact".into() };
-    let text = diagrams(&[block(title, steps, units)]).ok_or_else(failed)?;
-    fs::write(path, text).map_err(OutputError::unwritten(path))
+    write_text(path, &diagrams(&[block(title, steps, units)]).ok_or_else(failed)?)
 }
 
 /// The diagrams of all contacts.
@@ -110,7 +109,7 @@ mod tests {
     fn draw(steps: &[StepSummary]) -> Result<String, OutputError> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("steps.svg");
-        write_step_figure(&path, "press", steps, &units()).map(|()| fs::read_to_string(path).unwrap())
+        write_step_figure(&path, "press", steps, &units()).map(|()| std::fs::read_to_string(path).unwrap())
     }
 
     #[test]

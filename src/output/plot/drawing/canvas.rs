@@ -1,13 +1,13 @@
 //! The canvas of a figure: lines, areas and words, each over those before, as elements of SVG.
 
 use std::fmt::{Arguments, Write};
-use std::fs;
 use std::path::Path;
 
 use super::frame::Frame;
 use super::letters::{Letters, TextAnchor};
 use super::outline::{line_data, tenths};
 use super::paint::Paint;
+use crate::output::data::write_text;
 use crate::output::error::OutputError;
 use crate::output::markup::escape;
 
@@ -131,7 +131,7 @@ impl Canvas {
     /// # Errors
     /// The operating system refuses.
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
-        fs::write(path, self.svg()).map_err(OutputError::unwritten(path))
+        write_text(path, &self.svg())
     }
 }
 

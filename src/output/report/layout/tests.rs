@@ -50,7 +50,7 @@ fn summary(status: Status) -> Summary {
 fn page(status: Status, figures: &[&str]) -> String {
     let folder = tempfile::tempdir().unwrap();
     for name in figures {
-        fs::write(folder.path().join(name), format!("<svg xmlns=\"http://www.w3.org/2000/svg\"><text>{name}</text></svg>\n"))
+        std::fs::write(folder.path().join(name), format!("<svg xmlns=\"http://www.w3.org/2000/svg\"><text>{name}</text></svg>\n"))
             .unwrap();
     }
     let expected = ExpectedValue {
@@ -70,7 +70,7 @@ fn page(status: Status, figures: &[&str]) -> String {
         case: "[mesh]\nfile = \"a&b.msh\"\n",
     };
     write_report(folder.path(), &page).unwrap();
-    fs::read_to_string(folder.path().join("report.html")).unwrap()
+    std::fs::read_to_string(folder.path().join("report.html")).unwrap()
 }
 
 /// Whether every tag is closed in its order; the style and texts hold no brackets but those of tags.
