@@ -8,7 +8,7 @@ mod diagrams;
 mod drawing;
 mod scene;
 
-pub use bodies::{ContactZoom, DeformedFigure, DrawnEdge, DrawnForce, Facet, stress_file, write_zoom};
+pub use bodies::{ContactZoom, DeformedFigure, DrawnEdge, DrawnForce, Facet, stress_file};
 pub use diagrams::{
     Diagram, DiagramBlock, DiagramLine, DrawnContact, Mark, Sequence, diagrams, named_diagrams, write_accuracy, write_along,
     write_step_figure,

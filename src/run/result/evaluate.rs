@@ -17,6 +17,7 @@ use crate::run::verdict::warnings::shrinking::ShrunkBody;
 use crate::run::{Run, accuracy};
 use std::collections::BTreeMap;
 
+use super::figures::Shown;
 use super::judge::{ended, remarks};
 
 impl Run<'_> {
@@ -86,7 +87,8 @@ impl Run<'_> {
         let peaks = largest_stresses(&found, solved, self.case, (&summary, status))?;
         summary.body = peaks.iter().cloned().collect();
         let adaptation = accuracy::adaptation(self.case, solved, &self.true_errors.borrow());
-        self.write_files(&found, &summary, (&traces, &peaks), adaptation.as_ref())?;
+        let adaptation = adaptation.as_ref();
+        self.write_files(&Shown { found: &found, summary: &summary, traces: &traces, peaks: &peaks, adaptation })?;
         Ok((summary, status, reason))
     }
 }

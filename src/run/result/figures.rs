@@ -30,17 +30,31 @@ struct Drawing {
     zoom: ContactZoom,
 }
 
+/// A solution and what is known of it, as its files and figures show it.
+#[derive(Clone, Copy)]
+pub struct Shown<'a> {
+    pub found: &'a Evaluation<'a>,
+    pub summary: &'a Summary,
+    /// The points along each contact, on rank 0.
+    pub traces: &'a [Vec<TracePoint>],
+    /// The largest stress of each body.
+    pub peaks: &'a [(String, BodySummary)],
+    pub adaptation: Option<&'a Adaptation>,
+}
+
+impl Shown<'_> {
+    /// The contacts that have figures, each with its number.
+    pub fn with_figures(&self) -> impl Iterator<Item = (usize, &Contact)> {
+        let shown: BTreeSet<&str> = self.summary.with_figures().into_iter().collect();
+        let contacts = self.found.problem.contacts.iter().enumerate();
+        contacts.filter(move |(_, contact)| shown.contains(contact.pair.name.as_str()))
+    }
+}
+
 impl Run<'_> {
     /// Draws everything that is known of one solution. **Collective**
-    pub(super) fn write_figures(
-        &self,
-        found: &Evaluation,
-        summary: &Summary,
-        (traces, peaks): (&[Vec<TracePoint>], &[(String, BodySummary)]),
-        adaptation: Option<&Adaptation>,
-        stress: impl Fn(usize, usize) -> [f64; 4],
-    ) -> Result<(), RunError> {
-        let folder = &self.files;
+    pub(super) fn write_figures(&self, shown: &Shown, stress: impl Fn(usize, usize) -> [f64; 4]) -> Result<(), RunError> {
+        let (folder, Shown { found, summary, traces, peaks, adaptation }) = (&self.files, *shown);
         let contacts = &found.problem.contacts;
         let facets = fields::facets(found, &stress);
         let macro_edges = adaptation.map_or(Vec::new(), |_| fields::macro_edges(found, |_| true));
@@ -55,15 +69,13 @@ impl Run<'_> {
             units: &summary.units,
         };
         let drawn: Vec<DrawnContact> = contacts.iter().enumerate().map(drawn).collect();
-        let shown: BTreeSet<&str> = summary.with_figures().into_iter().collect();
-        let has_figures = |at: usize| shown.contains(contacts[at].pair.name.as_str());
-        let zooms = self.zooms(summary, contacts, &drawn, &facets, has_figures);
+        let zooms = self.zooms(shown, &drawn, &facets);
         let zoomed = |drawing: Drawing| (fields::facets_of_zoom(found, &stress, &drawing.zoom), drawing);
         let zooms: Vec<(Vec<Facet>, Drawing)> = zooms.into_iter().map(zoomed).collect();
         if self.session.rank() != 0 {
             return Ok(());
         }
-        self.write_contacts(contacts, &drawn, &shown, &zooms);
+        self.write_contacts(shown, &drawn, &zooms);
         let forces = drawn_forces(&found.problem.scene, contacts, summary, self.case.thickness);
         let figure = DeformedFigure {
             title: title(self.case),
@@ -87,40 +99,28 @@ impl Run<'_> {
     }
 
     /// Draws what is along the contacts that have figures, and the intervals that are drawn of them.
-    fn write_contacts(
-        &self,
-        contacts: &[Contact],
-        drawn: &[DrawnContact],
-        shown: &BTreeSet<&str>,
-        zooms: &[(Vec<Facet>, Drawing)],
-    ) {
-        for (contact, drawn) in contacts.iter().zip(drawn).filter(|(contact, _)| shown.contains(contact.pair.name.as_str())) {
-            plot::write_along(&self.files, &contact.pair.name, drawn).into_iter().for_each(|written| self.spare(written));
+    fn write_contacts(&self, shown: &Shown, drawn: &[DrawnContact], zooms: &[(Vec<Facet>, Drawing)]) {
+        for (at, contact) in shown.with_figures() {
+            plot::write_along(&self.files, &contact.pair.name, &drawn[at]).into_iter().for_each(|written| self.spare(written));
         }
-        if shown.len() < contacts.len() {
+        let (contacts, count) = (&shown.found.problem.contacts, shown.with_figures().count());
+        if count < contacts.len() {
             let words = "those that are trusted least, and those with the largest forces";
-            self.report.say(&format!("figures of {} of {} contacts: {words}", shown.len(), contacts.len()));
+            self.report.say(&format!("figures of {count} of {} contacts: {words}", contacts.len()));
         }
         let has_axis = self.case.plane == Plane::Revolution;
         for (facets, drawing) in zooms.iter().filter(|(facets, _)| !facets.is_empty()) {
             let name = format!("deformed_{}_{}.svg", contacts[drawing.contact].pair.name, drawing.number);
-            self.spare(plot::write_zoom(&self.files.join(name), &drawing.zoom, &drawn[drawing.contact], facets, has_axis));
+            self.spare(drawing.zoom.write(&self.files.join(name), &drawn[drawing.contact], facets, has_axis));
         }
     }
 
     /// The intervals that are drawn of the contacts that have figures, in the order of contacts and arc length. Rank 0 chooses.
     /// **Collective**
-    fn zooms(
-        &self,
-        summary: &Summary,
-        contacts: &[Contact],
-        drawn: &[DrawnContact],
-        facets: &[Facet],
-        has_figures: impl Fn(usize) -> bool,
-    ) -> Vec<Drawing> {
+    fn zooms(&self, shown: &Shown, drawn: &[DrawnContact], facets: &[Facet]) -> Vec<Drawing> {
         let mut all: Vec<(f64, Drawing)> = Vec::new();
-        for (at, contact) in contacts.iter().enumerate().filter(|(at, _)| has_figures(*at)) {
-            let closed = summary.contact.get(&contact.pair.name).and_then(|contact| contact.closed.as_deref());
+        for (at, contact) in shown.with_figures() {
+            let closed = shown.summary.contact.get(&contact.pair.name).and_then(|contact| contact.closed.as_deref());
             for (number, &interval) in closed.unwrap_or_default().iter().enumerate() {
                 let zoom = ContactZoom::new(&drawn[at], interval, facets);
                 let force = force_on(drawn[at].points, interval);

@@ -1,20 +1,19 @@
 //! The files of a result, and its folder put in its place.
 
-use super::{fields, figures};
-use crate::accuracy::Adaptation;
+use super::fields;
+use super::figures::{self, Shown};
 use crate::discretisation::Contact;
 use crate::mesh::MacroMesh;
 use crate::output::report::{ReportPage, write_report};
-use crate::output::summary::{BodySummary, Status, Summary};
+use crate::output::summary::{Status, Summary};
 use crate::output::{OutputError, ResultFolder, contact_table, vtk, write_text};
-use crate::recovery::{Evaluation, TracePoint};
+use crate::recovery::TracePoint;
 use crate::run::Run;
 use crate::run::accuracy::ADAPTED_MESH;
 use crate::run::outcome::RunError;
 use crate::run::telling::report::memory;
 use crate::run::telling::{interruption, progress};
 use crate::run::verdict::expected::expected_values;
-use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 impl Run<'_> {
@@ -79,46 +78,31 @@ impl Run<'_> {
     }
 
     /// Traces, which rank 0 has, in files; fields and figures too, unless the case wants none. **Collective**
-    pub(super) fn write_files(
-        &self,
-        found: &Evaluation,
-        summary: &Summary,
-        (traces, peaks): (&[Vec<TracePoint>], &[(String, BodySummary)]),
-        adaptation: Option<&Adaptation>,
-    ) -> Result<(), RunError> {
-        let folder = &self.files;
+    pub(super) fn write_files(&self, shown: &Shown) -> Result<(), RunError> {
         if self.session.rank() == 0 {
-            let path = |contact: &Contact| folder.join(format!("contact_{}.csv", contact.pair.name));
-            let tables = found.problem.contacts.iter().zip(traces);
+            let path = |contact: &Contact| self.files.join(format!("contact_{}.csv", contact.pair.name));
+            let tables = shown.found.problem.contacts.iter().zip(shown.traces);
             tables.for_each(|(contact, points)| self.spare(write_text(&path(contact), &contact_table(points))));
         }
         if !self.case.output.fields {
             return Ok(());
         }
-        let stress = found.stress()?;
+        let stress = shown.found.stress()?;
         let at_node = |part: usize, node: usize| stress.at(part, node);
         progress::write_files();
-        self.write_fields(found, summary, traces, at_node);
-        if self.draws { self.write_figures(found, summary, (traces, peaks), adaptation, at_node) } else { Ok(()) }
+        self.write_fields(shown, at_node);
+        if self.draws { self.write_figures(shown, at_node) } else { Ok(()) }
     }
 
     /// Fields of the bodies and along the contacts that have figures; where there is no room for them the result goes without.
     /// **Collective**
-    fn write_fields(
-        &self,
-        found: &Evaluation,
-        summary: &Summary,
-        traces: &[Vec<TracePoint>],
-        stress: impl Fn(usize, usize) -> [f64; 4],
-    ) {
+    fn write_fields(&self, shown: &Shown, stress: impl Fn(usize, usize) -> [f64; 4]) {
         let folder = &self.files;
-        let shown: BTreeSet<&str> = summary.with_figures().into_iter().filter(|_| self.session.rank() == 0).collect();
-        let pairs = found.problem.contacts.iter().zip(traces);
-        let pairs = pairs.filter(|(contact, _)| shown.contains(contact.pair.name.as_str()));
-        let curves = pairs.map(|(contact, points)| (folder.join(format!("contact_{}.vtu", contact.pair.name)), points));
+        let own = shown.with_figures().filter(|_| self.session.rank() == 0);
+        let curves = own.map(|(at, contact)| (folder.join(format!("contact_{}.vtu", contact.pair.name)), &shown.traces[at]));
         let curves: Vec<(PathBuf, &Vec<TracePoint>)> = curves.collect();
         let write_curves = || curves.iter().try_for_each(|(path, points)| Ok(vtk::write_curve(path, points)?));
-        let written = fields::write(folder, found, stress).and_then(|()| write_curves());
+        let written = fields::write(folder, shown.found, stress).and_then(|()| write_curves());
         if let Err(refusal) = self.session.agree(written) {
             // They are the largest files: where there is no room for them there may be for all others.
             fields::remove(folder, self.session);

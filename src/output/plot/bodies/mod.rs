@@ -11,4 +11,4 @@ mod zoom;
 pub use deformed::{DeformedFigure, DrawnEdge, DrawnForce};
 pub use facets::Facet;
 pub use stress::stress_file;
-pub use zoom::{ContactZoom, write_zoom};
+pub use zoom::ContactZoom;

@@ -55,6 +55,42 @@ impl ContactZoom {
         (0..2).all(|axis| corners.iter().any(|x| x[axis] >= low[axis]) && corners.iter().any(|x| x[axis] <= high[axis]))
     }
 
+    /// Draws `deformed_NAME_1.svg` and so on: the bodies around an interval that presses, coloured by von Mises stress, with their
+    /// names, and the pressure on the contact boundary.
+    ///
+    /// Displacements are drawn as they are: with any other factor bodies whose gap closes would overlap, or stay apart. The facets
+    /// are those that [`Self::shows`]; bodies of revolution have an axis.
+    ///
+    /// # Errors
+    /// There is no facet, or a number is not finite; the operating system refuses.
+    pub fn write(&self, path: &Path, contact: &DrawnContact, facets: &[Facet], has_axis: bool) -> Result<(), OutputError> {
+        check_facets(path, facets)?;
+        let (colours, boundary) = (Colours::of(facets, StressMeasure::VonMises), boundary_edges(facets));
+        let (mut canvas, chart) = plane(self.frame, has_axis, contact.units);
+        let (profile, largest) = profile(self, contact, &boundary);
+        let [from, to] = self.interval.map(number_text);
+        let title = format!("{}, s = {from} to {to}, displacements × 1", contact.title);
+        let pressure = Paint::line(BLUE, 1.6);
+        let words = format!("contact pressure λ, up to {}{}", number_text(largest), contact.units.stress().after());
+        let mut legend = vec![LegendCell::lines("contact boundary", &CONTACT), LegendCell::lines(words, &[pressure])];
+        legend.extend(colours.remark(contact.units.stress()));
+        chart.draw_head(&mut canvas, &title, &[legend]);
+        canvas.within(chart.frame, "", |canvas| {
+            draw_stress(canvas, &chart, facets, 1.0, &colours);
+            draw_outlines(canvas, &chart, &boundary, 1.0, INK);
+            let whole = moved_contact(contact, &boundary, 1.0);
+            CONTACT.iter().for_each(|paint| canvas.line(*paint, whole.iter().map(|x| chart.place(*x))));
+            let chart = &chart;
+            let [feet, tips] = [0, 1].map(|end| profile.iter().map(move |ends| chart.place(ends[end])));
+            canvas.polygon(Paint::fill(WHITE).faint(0.6), tips.clone().chain(feet.rev()));
+            canvas.line(pressure, tips);
+            draw_names(canvas, chart, self, contact, &boundary);
+        });
+        chart.draw_axes(&mut canvas, false);
+        draw_colour_bar(&mut canvas, &chart, &colours, contact.units.stress());
+        canvas.write(path)
+    }
+
     /// The size of the interval.
     fn size(&self) -> f64 {
         let [low, high] = self.frame;
@@ -66,48 +102,6 @@ impl ContactZoom {
 fn pressing(points: &[TracePoint], [from, to]: [f64; 2]) -> impl Iterator<Item = &TracePoint> {
     let tiny = 1e-9 * (to - from);
     points.iter().filter(move |p| p.arc >= from - tiny && p.arc <= to + tiny)
-}
-
-/// Draws `deformed_NAME_1.svg` and so on: the bodies around an interval that presses, coloured by von Mises stress, with their
-/// names, and the pressure on the contact boundary.
-///
-/// Displacements are drawn as they are: with any other factor bodies whose gap closes would overlap, or stay apart. The facets
-/// are those that [`ContactZoom::shows`]; bodies of revolution have an axis.
-///
-/// # Errors
-/// There is no facet, or a number is not finite; the operating system refuses.
-pub fn write_zoom(
-    path: &Path,
-    zoom: &ContactZoom,
-    contact: &DrawnContact,
-    facets: &[Facet],
-    has_axis: bool,
-) -> Result<(), OutputError> {
-    check_facets(path, facets)?;
-    let (colours, boundary) = (Colours::of(facets, StressMeasure::VonMises), boundary_edges(facets));
-    let (mut canvas, chart) = plane(zoom.frame, has_axis, contact.units);
-    let (profile, largest) = profile(zoom, contact, &boundary);
-    let [from, to] = zoom.interval.map(number_text);
-    let title = format!("{}, s = {from} to {to}, displacements × 1", contact.title);
-    let pressure = Paint::line(BLUE, 1.6);
-    let words = format!("contact pressure λ, up to {}{}", number_text(largest), contact.units.stress().after());
-    let mut legend = vec![LegendCell::lines("contact boundary", &CONTACT), LegendCell::lines(words, &[pressure])];
-    legend.extend(colours.remark(contact.units.stress()));
-    chart.draw_head(&mut canvas, &title, &[legend]);
-    canvas.within(chart.frame, "", |canvas| {
-        draw_stress(canvas, &chart, facets, 1.0, &colours);
-        draw_outlines(canvas, &chart, &boundary, 1.0, INK);
-        let whole = moved_contact(contact, &boundary, 1.0);
-        CONTACT.iter().for_each(|paint| canvas.line(*paint, whole.iter().map(|x| chart.place(*x))));
-        let chart = &chart;
-        let [feet, tips] = [0, 1].map(|end| profile.iter().map(move |ends| chart.place(ends[end])));
-        canvas.polygon(Paint::fill(WHITE).faint(0.6), tips.clone().chain(feet.rev()));
-        canvas.line(pressure, tips);
-        draw_names(canvas, chart, zoom, contact, &boundary);
-    });
-    chart.draw_axes(&mut canvas, false);
-    draw_colour_bar(&mut canvas, &chart, &colours, contact.units.stress());
-    canvas.write(path)
 }
 
 /// Points on the contact boundary where it presses, each with the tip of its pressure, which points into body 2; and the largest

@@ -50,8 +50,11 @@ fn summary(status: Status) -> Summary {
 fn page(status: Status, figures: &[&str]) -> String {
     let folder = tempfile::tempdir().unwrap();
     for name in figures {
-        std::fs::write(folder.path().join(name), format!("<svg xmlns=\"http://www.w3.org/2000/svg\"><text>{name}</text></svg>\n"))
-            .unwrap();
+        std::fs::write(
+            folder.path().join(name),
+            format!("<svg xmlns=\"http://www.w3.org/2000/svg\"><text>{name}</text></svg>\n"),
+        )
+        .unwrap();
     }
     let expected = ExpectedValue {
         name: format!("force of {NAME}"),
