@@ -4,7 +4,7 @@ use super::freedoms::Freedoms;
 use super::kernel::{Kernel, kernels};
 use crate::body::{Applied, MacroStiffness, applied_forces};
 use crate::discretisation::{Scene, SystemError};
-use crate::element::Block;
+use crate::element::{Block, times};
 use crate::geometry::Point;
 use crate::mesh::{Numbering, lattice};
 use faer::linalg::solvers::Solve;
@@ -101,13 +101,11 @@ fn assembled(
     let mut entries: Vec<StiffnessEntries> = freedoms.sizes.iter().map(|_| Vec::new()).collect();
     let mut add = |a: usize, b: usize, stiffness: &Block| {
         let [of_a, of_b] = [a, b].map(|node| freedoms.of(scene, node));
-        let force =
-            |v: Point| Point::new(stiffness[0][0] * v.x + stiffness[0][1] * v.y, stiffness[1][0] * v.x + stiffness[1][1] * v.y);
-        let held = force(of_b.at_rest);
+        let held = times(stiffness, &of_b.at_rest);
         for &(i, u) in of_a.terms() {
             loads[of_a.block][i] -= u.dot(&held);
             for &(j, v) in of_b.terms().iter().filter(|(j, _)| *j <= i) {
-                entries[of_a.block].push(Triplet::new(i, j, u.dot(&force(v))));
+                entries[of_a.block].push(Triplet::new(i, j, u.dot(&times(stiffness, &v))));
             }
         }
     };

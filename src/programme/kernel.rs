@@ -4,7 +4,7 @@ use super::freedoms::Freedoms;
 use crate::body::{UNIT_MOTIONS, rigid_displacement};
 use crate::contact::Extent;
 use crate::discretisation::Scene;
-use crate::element::Plane;
+use crate::element::{Plane, times};
 use crate::geometry::Point;
 use crate::mesh::Numbering;
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -187,8 +187,7 @@ fn add_springs(scene: &Scene, numbering: &Numbering, freedoms: &Freedoms, motion
                 let [of_a, of_b] = [a, b].map(|node| freedoms.of(scene, node));
                 let block = of_a.block;
                 for ((i, u), (j, v)) in of_a.terms().iter().flat_map(|left| of_b.terms().iter().map(move |right| (left, right))) {
-                    let value = u.x * (stiffness[0][0] * v.x + stiffness[0][1] * v.y)
-                        + u.y * (stiffness[1][0] * v.x + stiffness[1][1] * v.y);
+                    let value = u.dot(&times(&stiffness, v));
                     resisted[block] += value * motions[block].row(*i).transpose() * motions[block].row(*j);
                 }
             });

@@ -10,11 +10,12 @@ mod freedoms;
 mod kernel;
 
 use self::elimination::Elimination;
-use crate::body::{Applied, BodyPart, MeanHold, applied_forces, body_forces, rigid_displacement};
+use crate::body::{Applied, BodyPart, Load, MeanHold, PointLoad, applied_forces, body_forces, rigid_displacement};
 use crate::contact::{Programme, ProgrammeOutcome, Side, added_up, describe_motion};
 use crate::discretisation::{Contact, Coupled, Scene, SystemError, bilateral, coupled_here};
 use crate::geometry::{Formula, Point};
-use crate::mesh::{EdgeNode, Numbering};
+use crate::mesh::Numbering;
+use std::slice::from_ref;
 
 /// Columns that a factor solves for together.
 const TOGETHER: usize = 64;
@@ -129,7 +130,7 @@ impl<'s> Predictor<'s> {
         }
         for (block, own) in self.elimination.blocks.iter().zip(&by_block) {
             let load: Vec<(usize, f64)> = block.load.iter().copied().enumerate().collect();
-            let moved = block.solve(std::slice::from_ref(&load)).remove(0);
+            let moved = block.solve(from_ref(&load)).remove(0);
             block.work(&load).iter().enumerate().for_each(|(k, work)| driven[block.first + k] = *work);
             for (at, entries) in own {
                 penetration[*at] += product(entries, &moved);
@@ -159,7 +160,7 @@ impl<'s> Predictor<'s> {
             row.entries.iter().for_each(|&(block, unknown, value)| forces[block].push((unknown, -multiplier * value)));
         }
         let of_block = |(block, forces): (&elimination::EliminatedBlock, Vec<(usize, f64)>)| {
-            let mut moved = block.solve(std::slice::from_ref(&forces)).remove(0);
+            let mut moved = block.solve(from_ref(&forces)).remove(0);
             for k in 0..block.kernel.len() {
                 let amount = motions[block.first + k];
                 moved.iter_mut().enumerate().for_each(|(unknown, u)| *u += amount * block.kernel.motions[(unknown, k)]);
@@ -209,9 +210,9 @@ impl<'s> Predictor<'s> {
         let Scene { mesh, partition, loads, point_loads, rigid, .. } = self.scene;
         let (factor, parts) = (&self.elimination.blocks[block], self.scene.parts());
         let moved = |unknown: usize| motion.iter().enumerate().map(|(k, a)| a * factor.kernel.motions[(unknown, k)]).sum::<f64>();
-        let work = |applied: &Applied| -> Result<f64, SystemError> {
-            let mut work = 0.0;
-            applied_forces(mesh, partition, 0, self.numbering, applied, |node, force| {
+        let work = |parts: &[&BodyPart], loads: &[Load], point_loads: &[PointLoad]| -> Result<f64, SystemError> {
+            let (applied, mut work) = (Applied { parts, loads, point_loads }, 0.0);
+            applied_forces(mesh, partition, 0, self.numbering, &applied, |node, force| {
                 let node = self.elimination.freedoms.of(self.scene, node);
                 if node.block == block {
                     work += node.terms().iter().map(|(unknown, u)| moved(*unknown) * u.dot(&force)).sum::<f64>();
@@ -223,15 +224,12 @@ impl<'s> Predictor<'s> {
         let unloaded: Vec<BodyPart> =
             parts.iter().map(|part| BodyPart { force: nothing(), heat: None, ..(*part).clone() }).collect();
         let unloaded: Vec<&BodyPart> = unloaded.iter().collect();
-        let mut all =
-            vec![("body_force, gravity or heat".to_string(), work(&Applied { parts: &parts, loads: &[], point_loads: &[] })?)];
+        let mut all = vec![("body_force, gravity or heat".to_string(), work(&parts, &[], &[])?)];
         for load in loads {
-            let applied = Applied { parts: &unloaded, loads: std::slice::from_ref(load), point_loads: &[] };
-            all.push((format!("load.{}", load.name), work(&applied)?));
+            all.push((format!("load.{}", load.name), work(&unloaded, from_ref(load), &[])?));
         }
         for load in point_loads {
-            let applied = Applied { parts: &unloaded, loads: &[], point_loads: std::slice::from_ref(load) };
-            all.push((format!("load.{}", load.name), work(&applied)?));
+            all.push((format!("load.{}", load.name), work(&unloaded, &[], from_ref(load))?));
         }
         for (set, freedom) in rigid.iter().zip(&self.elimination.freedoms.sets).filter(|(_, freedom)| freedom.block == block) {
             let own = freedom.unknowns.iter().zip(set.applied).filter_map(|(unknown, force)| Some(moved((*unknown)?) * force));
@@ -243,12 +241,10 @@ impl<'s> Predictor<'s> {
 
     fn row_of(&self, coupled: &[Coupled]) -> ProgrammeRow {
         let mut row = ProgrammeRow::default();
-        coupled.iter().for_each(|coupled| self.add(&mut row, coupled.node, coupled.value));
+        for Coupled { node, value, .. } in coupled {
+            self.add_node(&mut row, node.number(&self.scene.mesh, self.numbering), *value);
+        }
         row.tidied()
-    }
-
-    fn add(&self, row: &mut ProgrammeRow, node: EdgeNode, value: Point) {
-        self.add_node(row, node.number(&self.scene.mesh, self.numbering), value);
     }
 
     fn add_node(&self, row: &mut ProgrammeRow, node: usize, value: Point) {
