@@ -23,9 +23,12 @@ use super::file::overrides::{overridden, set_value};
 use super::file::text::{name_of, read_text};
 use super::keys::Section;
 use super::model::{Case, LoadStep};
-use super::patterns::{self, Matched};
+use super::patterns::{self, Matched, ReadMesh};
 use super::schema::case::{CASE, PLANE, THICKNESS, TITLE};
 use crate::mesh::read_bytes;
+
+/// A table with its log, and what its patterns stand for.
+type WrittenOut = (Table, Log, Vec<Matched>);
 
 impl Case {
     /// Reads and checks a case file, after the overrides `KEY=VALUE`.
@@ -41,19 +44,14 @@ impl Case {
     /// # Errors
     /// [`CaseError`] with everything that is wrong.
     pub fn parse(text: &str, file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
-        Self::parse_with(text, file, overrides, read_mesh_bytes)
+        Self::parse_with(text, file, overrides, &read_mesh_bytes)
     }
 
     /// Checks the text of a case file, where `bytes` reads the mesh by its path, which is needed where names of the case are patterns.
     ///
     /// # Errors
     /// [`CaseError`] with everything that is wrong.
-    pub fn parse_with(
-        text: &str,
-        file: &Path,
-        overrides: &[String],
-        bytes: impl FnOnce(&Path) -> Result<Vec<u8>, String>,
-    ) -> Result<Self, CaseError> {
+    pub fn parse_with(text: &str, file: &Path, overrides: &[String], bytes: ReadMesh) -> Result<Self, CaseError> {
         let (table, log, matched) = Self::written_out(text, file, overrides, bytes)?;
         let case = Self::from_table(table, log, file)?;
         Self { matched, ..case }.with_steps()
@@ -63,12 +61,7 @@ impl Case {
     ///
     /// # Errors
     /// [`CaseError`] if the text is no TOML, or a pattern stands for nothing.
-    fn written_out(
-        text: &str,
-        file: &Path,
-        overrides: &[String],
-        bytes: impl FnOnce(&Path) -> Result<Vec<u8>, String>,
-    ) -> Result<(Table, Log, Vec<Matched>), CaseError> {
+    fn written_out(text: &str, file: &Path, overrides: &[String], bytes: ReadMesh) -> Result<WrittenOut, CaseError> {
         let (table, mut log) = overridden(text, file, overrides, &accuracy::SHORT)?;
         if !patterns::has_patterns(&table) {
             return Ok((table, log, Vec::new()));
@@ -122,7 +115,7 @@ impl Case {
 
     /// What can be read of a text that has errors, so that more of them may be found; nothing if there is no mesh to speak of.
     pub(crate) fn draft(text: &str, file: &Path, overrides: &[String]) -> Option<Self> {
-        let (table, log, _) = Self::written_out(text, file, overrides, read_mesh_bytes).ok()?;
+        let (table, log, _) = Self::written_out(text, file, overrides, &read_mesh_bytes).ok()?;
         let draft = Self::from_section(&Section::root(&table, &CASE, &RefCell::new(log)), file);
         draft.map(|draft| Self { table, ..draft })
     }

@@ -21,6 +21,9 @@ use std::path::Path;
 use toml::Table;
 use wildcard::is_pattern;
 
+/// Reads the bytes of a mesh by its path, or says why not.
+pub type ReadMesh<'a> = &'a dyn Fn(&Path) -> Result<Vec<u8>, String>;
+
 /// Tables with names of bodies and contacts.
 const NAMED: [&[&str]; 7] =
     [&["body"], &["support"], &["load"], &["contact"], &["exact", "body"], &["exact", "contact"], &["accuracy", "contact"]];
@@ -51,12 +54,7 @@ pub fn has_patterns(table: &Table) -> bool {
 
 /// The case without patterns, and what they have matched; `bytes` reads the mesh of the case by its path. What is wrong is in the
 /// log afterwards.
-pub fn written_out(
-    table: Table,
-    folder: &Path,
-    log: &mut Log,
-    bytes: impl FnOnce(&Path) -> Result<Vec<u8>, String>,
-) -> (Table, Vec<Matched>) {
+pub fn written_out(table: Table, folder: &Path, log: &mut Log, bytes: ReadMesh) -> (Table, Vec<Matched>) {
     let Some(file) = table_at(&table, &["mesh"]).and_then(|mesh| mesh.get("file")?.as_str()).map(|file| folder.join(file)) else {
         return (table, Vec::new()); // The readers say what is missing.
     };

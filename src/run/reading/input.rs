@@ -17,7 +17,7 @@ pub fn read_case(file: &Path, overrides: &[String], wanted: Option<&Inputs>, ses
     let text = String::from_utf8(text.map_err(RunError::Input)?).expect("rank 0 has read a text");
     // Every rank has read the same text, so that all want the mesh or none, for the names that patterns stand for.
     let bytes = |mesh: &Path| session.share(|| read_bytes(mesh).map_err(|error| error.to_string()));
-    match Case::parse_with(&text, file, overrides, bytes) {
+    match Case::parse_with(&text, file, overrides, &bytes) {
         Ok(case) => Ok(session.agree::<_, String>(Ok(case)).map_err(RunError::Input)?),
         Err(error) => {
             // Every rank has read the same text, so that all are here.
