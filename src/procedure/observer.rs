@@ -6,7 +6,7 @@ use crate::petsc::StageGuard;
 use crate::procedure::at_rest::AtRest;
 use crate::procedure::boundary::BoundaryStep;
 use crate::procedure::sets::Pass;
-use crate::procedure::solved::Solved;
+use crate::procedure::solved::{CoarseSolve, Solved};
 
 /// Parts of the work whose times are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,10 +43,8 @@ pub enum Event<'a> {
     },
     /// A coarser mesh was solved first.
     Coarse {
-        /// Its refinement.
-        refine: usize,
-        /// Its displacement unknowns.
-        unknowns: usize,
+        /// Its size and its iterations.
+        solve: &'a CoarseSolve,
         /// Which multipliers are active.
         active: &'a [bool],
         /// The passes of its loops.

@@ -136,9 +136,10 @@ impl Procedure<'_> {
             OneMesh { procedure: self, tolerance, is_last: false, is_hard }.solve(&mut problem, start, preconditioning)?;
         let (unknowns, converged) = (problem.unknown_count(), found.ending.is_converged());
         let iterations = found.passes.iter().map(|pass| pass.krylov_iterations).collect();
-        coarser.solves.push(CoarseSolve { refine, unknowns, iterations });
+        let solve = CoarseSolve { refine, unknowns, iterations };
         let (active, passes) = (&found.solution.active, &found.passes);
-        self.observer.observe(Event::Coarse { refine, unknowns, active, passes, converged });
+        self.observer.observe(Event::Coarse { solve: &solve, active, passes, converged });
+        coarser.solves.push(solve);
         if converged {
             let _stage = self.observer.enter(Work::Recovery);
             if let Some(before) = &before {

@@ -10,7 +10,7 @@ use crate::case::Case;
 use crate::output::report::{ReportPage, write_report};
 use crate::output::summary::{Mesh, Status, StepSummary, Summary, Time, Unknowns};
 use crate::output::{OutputError, ResultFolder, recover};
-use crate::procedure::{CoarseSolve, Event, Work};
+use crate::procedure::{Event, Work};
 use crate::run::accuracy;
 use crate::run::reading::origin::ResultOrigin;
 use crate::run::run_options::RunOptions;
@@ -240,11 +240,7 @@ impl Unfinished {
             }
             Event::Solver(_) | Event::Begin(_) | Event::Refinement { .. } => {}
             Event::Again { .. } => self.forget_passes(),
-            Event::Coarse { refine, unknowns, passes, .. } => summary.solver.coarse.push(CoarseSolve {
-                refine: *refine,
-                unknowns: *unknowns,
-                iterations: passes.iter().map(|pass| pass.krylov_iterations).collect(),
-            }),
+            Event::Coarse { solve, .. } => summary.solver.coarse.push((*solve).clone()),
             Event::Passed(pass, _) => {
                 summary.outer.push((*pass).clone());
                 summary.solver.iterations.push(pass.krylov_iterations);
@@ -337,7 +333,7 @@ mod tests {
             fs::write(folder.path("fields.vtu"), "half").unwrap();
             fs::create_dir_all(folder.path("steps/001")).unwrap();
             let mut summary = Summary::new("bars", 2);
-            summary.solver.coarse.push(CoarseSolve::default());
+            summary.solver.coarse.push(Default::default());
             Unfinished {
                 folder,
                 origin: Arc::default(),

@@ -325,7 +325,7 @@ mod tests {
         for (refine, told) in [(0, "refine 0 of 3"), (1, "refine 1 of 3"), (3, "refine 3 of 3")] {
             place.observe(&Event::Refinement { refine, last: 3 });
             assert_eq!(words(&place, None, Duration::ZERO), format!("0:00, {told}, reading"));
-            place.observe(&Event::Coarse { refine, unknowns: 2, active: &[], passes: &[], converged: true });
+            place.observe(&Event::Coarse { solve: &Default::default(), active: &[], passes: &[], converged: true });
         }
         place.observe(&Event::Refinement { refine: 0, last: 0 });
         assert_eq!(words(&place, None, Duration::ZERO), "0:00, reading");

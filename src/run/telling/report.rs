@@ -83,13 +83,13 @@ impl Report {
                 self.warn_all(&locking(scene));
             }
             Event::Solver(words) => self.say(&format!("solver: {words}")),
-            Event::Coarse { refine, unknowns, active, passes, converged } => {
-                let iterations: Vec<String> = passes.iter().map(|pass| pass.krylov_iterations.to_string()).collect();
+            Event::Coarse { solve, active, passes, converged } => {
+                let iterations: Vec<String> = solve.iterations.iter().map(usize::to_string).collect();
                 let (iterations, all) = (iterations.join(" "), active.len());
                 let active = active.iter().filter(|active| **active).count();
                 let end = if *converged { "" } else { "; not converged, not used further" };
                 let words = format!("{active}/{all} multipliers in contact, {iterations} iterations{end}");
-                self.say(&format!("refine {refine}: {unknowns} unknowns, {words}"));
+                self.say(&format!("refine {}: {} unknowns, {words}", solve.refine, solve.unknowns));
                 passes.iter().for_each(|pass| self.fallback(pass.fallback.as_deref()));
             }
             Event::Refinement { .. } => {}
