@@ -82,7 +82,7 @@ fn blocks_that_slide_by_a_twentieth_of_their_width_are_not_trusted() {
         for trust in ["trust", "trust_force"] {
             assert_eq!(ended.value(&format!("/contact/seam/{trust}")), false, "{words}");
         }
-        assert!(ended.errors.contains("sliding takes 0.050 of the length in contact"), "{words}: {}", ended.errors);
+        assert!(ended.errors.contains("sliding takes 0.050 of the contact"), "{words}: {}", ended.errors);
     });
 }
 

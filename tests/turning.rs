@@ -97,3 +97,58 @@ fn a_gap_that_turning_makes_is_told() {
         assert!(!ended.errors.contains("turn"), "{}", ended.errors);
     }
 }
+
+/// Two rings with a slit, the one shrunk into the other: the forces of their contact cancel along the curve, and are in balance by what
+/// they are, not by their sum, which is rounding.
+#[test]
+fn rings_with_a_slit_are_in_balance() {
+    let angles = [0.2, 2.0 * std::f64::consts::PI - 0.2];
+    let [inner, outer] = [([1.0, 1.5], 3), ([1.5, 2.0], 4)].map(|(radii, seed)| sector(40 + seed as usize, seed, radii, angles));
+    let bodies = vec![("in", inner, ["", "", "in.rim", ""]), ("out", outer, ["out.bore", "", "", ""])];
+    let case = r#"
+mesh = { file = "mesh.msh", refine = 1 }
+body.in = { young = 1000.0, poisson = 0.3 }
+body.out = { young = 1000.0, poisson = 0.3 }
+geometry.circle = { curves = ["in.rim", "out.bore"], circle = { centre = [0, 0], radius = 1.5 } }
+support.out = { body = "out", mean = true, ux = 0.0, uy = 0.0, angle = 0.0 }
+support.in = { body = "in", mean = true, angle = 0.0 }
+contact.seam = { between = ["in.rim", "out.bore"], gap = -1e-3 }
+output.fields = false
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), case);
+    for ranks in [1, 2] {
+        // They come apart, but for short zones that this mesh does not resolve.
+        let ended = Run::file(&file).ranks(ranks).ended();
+        assert!(ended.number("/balance/bodies") < 1e-6 && !ended.said().contains("out of balance"), "{}", ended.said());
+        assert!(ended.number("/contact/seam/force") > 1e-3, "{}", ended.said());
+    }
+}
+
+/// A strip that two loads bend over a drum: both halves turn, and its mean does not.
+#[test]
+fn halves_that_turn_against_each_other_are_seen() {
+    let strip = grid(48, 3, 5, |u, v| [12.0 * u - 6.0, 0.5 * v]);
+    let mesh = Mesh { bodies: vec![("strip", strip, ["below", "right", "", "left"])] };
+    let case = r#"
+mesh = { file = "mesh.msh", refine = 1 }
+body.strip = { young = 1000.0, poisson = 0.3 }
+rigid.drum = { circle = { centre = [0.0, -10.0], radius = 10.0 } }
+support.still = { body = "strip", mean = true, ux = 0.0, angle = 0.0 }
+load.ends = { on = ["left", "right"], traction = [0.0, -0.4] }
+contact.seam = { between = ["below", "rigid.drum"] }
+output.fields = false
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    for ranks in [1, 2] {
+        let ended = Run::file(&file).ranks(ranks).ended();
+        assert!(
+            ended.number("/rotation/strip").abs() < 1e-6 && ended.number("/rotation_max/strip").abs() > 0.2,
+            "{}",
+            ended.said()
+        );
+        assert_eq!(ended.value("/contact/seam/trust"), false);
+        assert!(ended.said().contains("body strip turns by"), "{}", ended.said());
+    }
+}

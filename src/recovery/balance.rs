@@ -43,7 +43,7 @@ pub struct Balance {
     pub motions: Vec<Motion>,
     /// Sum of the magnitudes of all forces on bodies: loads and reactions of their nodes, contact (per thickness).
     pub forces: f64,
-    /// Largest `|F₁ + F₂| / |F₂|`; of a closed contact, where `F₂` may vanish, by `∫λ ds`.
+    /// Largest `|F₁ + F₂| / |F₂|`; along a curve, where `F₂` may vanish, by `∫λ ds`.
     pub force: Option<f64>,
     /// Largest `|M₁ + M₂| / (|F₂| length)`, about the middle of Γ_C; nothing in bodies of revolution, which cannot turn.
     pub moment: Option<f64>,

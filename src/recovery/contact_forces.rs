@@ -18,10 +18,12 @@ pub struct ContactForce {
 }
 
 impl ContactForce {
-    /// What the forces of a contact are measured by: all around a ring, or an axis of revolution, they may cancel.
+    /// What the forces of a contact are measured by: along a curve, as around a shaft with a keyway, or an axis of revolution, they may
+    /// cancel.
     pub fn size(&self, contact: &Contact) -> f64 {
         let resultant = self.resultants[1].norm();
-        if contact.boundary.is_closed() || contact.boundary.is_round() { resultant.max(self.force.abs()) } else { resultant }
+        let cancels = !contact.boundary.is_straight() || contact.boundary.is_round();
+        if cancels { resultant.max(self.force.abs()) } else { resultant }
     }
 }
 

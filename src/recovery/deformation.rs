@@ -19,6 +19,8 @@ pub struct Deformation {
     pub place: Point,
     /// Mean rotation, anticlockwise (radians).
     pub rotation: f64,
+    /// Mean rotation of a macro triangle, the largest by magnitude (radians): both halves of a strip that is bent turn, its mean does not.
+    pub turned: f64,
     /// `∫(ω² - ε²)/2 tr σ` where the rotation ω is larger than the strain ε: the work of the stresses on the growth that a
     /// linear theory gives to what turns (energy per thickness).
     pub growth: f64,
@@ -34,24 +36,28 @@ type TriangleIntegrals = [f64; 4];
 /// Integrals over a body: of 1, of the rotation, of the work on its growth, of the place.
 type BodyIntegrals = [f64; 5];
 
-/// Strain, rotation and growth of each body. Strains are means over a macro triangle; where these are hardly refined, over it
-/// and its neighbours. So a corner where the strain is singular counts by what its surroundings see, on fine meshes as on
-/// coarse ones. **Collective**
+/// Strain, rotation and growth of each body, and the rotation of each macro triangle. Strains and rotations of these are means over one;
+/// where they are hardly refined, over it and its neighbours. So a corner where the strain is singular counts by what its surroundings
+/// see, on fine meshes as on coarse ones. **Collective**
 ///
 /// # Errors
 /// [`SystemError`] from an inverted triangle.
-pub fn deformations(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<Deformation>, SystemError> {
+pub fn deformations(
+    problem: &Discretisation,
+    u: &Field<2>,
+    session: &Session,
+) -> Result<(Vec<Deformation>, Vec<f64>), SystemError> {
     let (mesh, laws) = (&problem.scene.mesh, problem.scene.laws());
     let mut totals = vec![BodyIntegrals::default(); mesh.bodies.len()];
-    // What neighbours need of a macro triangle: its strain and its area.
-    let mut sums = vec![[0.0; 2]; mesh.triangles.len()];
+    // What neighbours need of a macro triangle: its strain, its area and its rotation.
+    let mut sums = vec![[0.0; 3]; mesh.triangles.len()];
     let own = problem.scene.partition.triangles_of(session.rank());
     let added = own.iter().try_for_each(|&at| {
         let triangle = &mesh.triangles[at as usize];
         let material = (&laws[triangle.part as usize], problem.scene.heat(triangle.part as usize));
         let found = by_order!(problem.finest().numbering.level.order, integrals(problem, u, at as usize, material))?;
         add_to_body(&mut totals[triangle.body as usize], &found, centroid(mesh, triangle));
-        sums[at as usize] = [found[0], found[1]];
+        sums[at as usize] = [found[0], found[1], found[2]];
         Ok(())
     });
     agreed(session, added)?;
@@ -66,8 +72,10 @@ pub fn deformations(problem: &Discretisation, u: &Field<2>, session: &Session) -
         if sum[0] / sum[1] > of_body.strain {
             (of_body.strain, of_body.place) = (sum[0] / sum[1], centroid(mesh, triangle));
         }
+        let rotation = sum[2] / sum[1];
+        of_body.turned = if rotation.abs() > of_body.turned.abs() { rotation } else { of_body.turned };
     }
-    Ok(found)
+    Ok((found, sums.iter().map(|sum| sum[2] / sum[1]).collect()))
 }
 
 /// Adds the integrals over a macro triangle with this centroid to those of its body.
@@ -76,11 +84,11 @@ fn add_to_body(sum: &mut BodyIntegrals, [_, area, rotation, growth]: &TriangleIn
     sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
 }
 
-/// What is known of each body as a whole; its strain is left at zero.
+/// What is known of each body as a whole; its strain and its largest rotation are left at zero.
 fn whole_bodies(mesh: &MacroMesh, totals: &[BodyIntegrals]) -> Vec<Deformation> {
     let whole = |&[area, rotation, growth, x, y]: &BodyIntegrals| {
         let middle = Point::new(x, y) / area;
-        Deformation { strain: 0.0, place: middle, rotation: rotation / area, growth, middle, radius: 0.0 }
+        Deformation { strain: 0.0, place: middle, rotation: rotation / area, turned: 0.0, growth, middle, radius: 0.0 }
     };
     let mut found: Vec<Deformation> = totals.iter().map(whole).collect();
     if mesh.plane == Plane::Revolution {
@@ -104,7 +112,7 @@ fn centroid(mesh: &MacroMesh, triangle: &MacroTriangle) -> Point {
 }
 
 /// Each sum with those of the macro triangles beside it.
-fn with_neighbours(mesh: &MacroMesh, sums: &[[f64; 2]]) -> Vec<[f64; 2]> {
+fn with_neighbours(mesh: &MacroMesh, sums: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let mut wider = sums.to_vec();
     for edge in &mesh.edges {
         let [Some(a), Some(b)] = edge.triangles.map(|triangle| triangle.map(|triangle| triangle as usize)) else { continue };

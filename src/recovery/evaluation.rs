@@ -51,8 +51,8 @@ impl<'a> Evaluation<'a> {
         let mut moved = [u.own().iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)];
         session.max(&mut moved);
         let balance = balance(problem, solution, &u, session)?;
-        let deformations = deformations(problem, &u, session)?;
-        let motions = motion_errors(problem, solution, &balance.strain, &deformations, session);
+        let (deformations, turns) = deformations(problem, &u, session)?;
+        let motions = motion_errors(problem, solution, &balance.strain, (&deformations, &turns), session);
         let forces: Vec<f64> = balance.contacts.iter().map(|contact| contact.force).collect();
         let penetrations = penetrations(problem, solution, &forces, session);
         Ok(Self {

@@ -21,8 +21,9 @@ use super::deformation::Deformation;
 use super::traces::TracePoint;
 use crate::body::RigidSet;
 use crate::contact::{Configuration, FiniteMotion, GapError, SmoothSide, Turn, finite_motion};
-use crate::discretisation::{BoundaryMotion, Contact, Discretisation, Solution, needed_contacts};
-use crate::mesh::EdgeNode;
+use crate::discretisation::{BoundaryMotion, Contact, ContactPressure, Discretisation, Solution, needed_contacts};
+use crate::geometry::Point;
+use crate::mesh::{EdgeNode, MacroEdge, MacroMesh};
 use crate::petsc::Session;
 
 /// A gap smaller than this share of the growth counts as large as that.
@@ -49,13 +50,13 @@ pub struct MotionError {
     pub rotation_error: f64,
 }
 
-/// For each contact what motions spoil; nothing where no body is strained. `energy` is the strain energy of each body.
-/// **Collective**
+/// For each contact what motions spoil; nothing where no body is strained. `energy` is the strain energy of each body, `turns` the
+/// rotation of each macro triangle (radians). **Collective**
 pub fn motion_errors(
     problem: &Discretisation,
     solution: &Solution,
     energy: &[f64],
-    bodies: &[Deformation],
+    (bodies, turns): (&[Deformation], &[f64]),
     session: &Session,
 ) -> Vec<Option<MotionError>> {
     let follows = |contact: &Contact| contact.pair.configuration == Configuration::Reference && contact.known.meeting.is_some();
@@ -76,7 +77,7 @@ pub fn motion_errors(
             sides
         });
         let sides = meeting.zip(sides.as_ref()).map(|((meeting, _), sides)| meeting.sides(sides));
-        one(problem, solution, (contact, needed), energy, bodies, sides, session)
+        one(problem, solution, (contact, needed), energy, (bodies, turns), sides, session)
     };
     problem.contacts.iter().zip(&needed).map(with_sides).collect()
 }
@@ -87,11 +88,17 @@ fn one(
     solution: &Solution,
     (contact, needed): (&Contact, bool),
     energy: &[f64],
-    bodies: &[Deformation],
+    (bodies, turns): (&[Deformation], &[f64]),
     sides: Option<[&SmoothSide; 2]>,
     session: &Session,
 ) -> Option<MotionError> {
-    let turns = contact.bodies.map(|body| Turn { angle: bodies[body].rotation, middle: bodies[body].middle });
+    let turns = [0, 1].map(|side| {
+        let body = &bodies[contact.bodies[side]];
+        let is_tool = problem.scene.tool(contact.bodies[side]).is_some();
+        let here = if is_tool { body.rotation } else { turn_at(&problem.scene.mesh, &solution.pressure(contact), side, turns) };
+        let angle = if here * body.rotation > 0.0 { here.abs().min(body.rotation.abs()) } else { 0.0 };
+        Turn { angle: angle.copysign(body.rotation), middle: body.middle }
+    });
     let found = finite_motion(sides, turns, &contact.boundary, &contact.multipliers, &solution.multipliers[contact.range()]);
     let energy: f64 = contact.bodies.iter().map(|&body| energy[body]).sum();
     let growth: f64 = contact.bodies.iter().map(|&body| bodies[body].growth).sum();
@@ -115,6 +122,24 @@ fn one(
         slip_error: sides.map(|_| error(&found.whole)),
         rotation_error: error(&found.turning),
     })
+}
+
+/// By how much a body turns where it presses: the largest rotation of the macro triangles beside the ends and the centre of what presses.
+/// A half of a strip that is bent turns in the mean, and not where it is cut in two; so whole and half are judged alike.
+fn turn_at(mesh: &MacroMesh, pressure: &ContactPressure, side: usize, turns: &[f64]) -> f64 {
+    let (zones, boundary) = (pressure.zones(), &pressure.contact.boundary);
+    let ends = zones.first().zip(zones.last()).map(|(first, last)| [first.arcs[0], last.arcs[1]]);
+    let ends = ends.into_iter().flatten().map(|arc| boundary.point(boundary.parameter_at(arc)));
+    let edges: Vec<&MacroEdge> =
+        mesh.edges_of(&pressure.contact.pair.between[side]).iter().map(|&edge| &mesh.edges[edge as usize]).collect();
+    let middle = |edge: &MacroEdge| 0.5 * edge.vertices.map(|vertex| mesh.vertices[vertex as usize]).into_iter().sum::<Point>();
+    let turn = |place: Point| {
+        let distance = |edge: &&&MacroEdge| (middle(edge) - place).norm_squared();
+        let nearest = edges.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        Some(turns[nearest.triangles.iter().flatten().next().copied()? as usize])
+    };
+    let found = ends.chain(pressure.centre()).filter_map(turn);
+    found.fold(0.0, |most, turn| if turn.abs() > f64::abs(most) { turn } else { most })
 }
 
 /// Whether a body of the contact is a rigid tool of which this is true.
@@ -169,13 +194,12 @@ pub fn growth_by_gap(bodies: [&Deformation; 2], points: &[TracePoint], farthest:
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point;
 
     #[test]
     fn bodies_that_turn_grow_by_half_the_square_of_the_angle() {
         let turned = |rotation: f64| {
             let (place, middle) = (Point::zeros(), Point::zeros());
-            Deformation { strain: 0.0, place, rotation, growth: 0.0, middle, radius: 3.0 }
+            Deformation { strain: 0.0, place, rotation, turned: rotation, growth: 0.0, middle, radius: 3.0 }
         };
         let point = |gap: f64| {
             let (x, normal) = (Point::zeros(), Point::y());

@@ -80,6 +80,8 @@ pub struct Summary {
     pub strain_max: BTreeMap<String, Option<f64>>,
     /// Mean rotation by name of the body, anticlockwise (radians).
     pub rotation: BTreeMap<String, Option<f64>>,
+    /// Largest rotation by magnitude by name of the body: the mean over a macro triangle (radians).
+    pub rotation_max: BTreeMap<String, Option<f64>>,
     /// Estimated discretisation errors.
     pub estimate: EstimateSummary,
     /// Relative residuals of force, moment and energy balance.

@@ -61,7 +61,7 @@ fn keys_are_the_names_that_other_tools_rely_on() {
     let expected = [
         (
             "",
-            "balance body boundaries case contact displacement_max energy errors estimate files memory_mib mesh mezha outer probe provenance ranks reason rigid rotation solver status strain_max support time_s unknowns",
+            "balance body boundaries case contact displacement_max energy errors estimate files memory_mib mesh mezha outer probe provenance ranks reason rigid rotation rotation_max solver status strain_max support time_s unknowns",
         ),
         ("/mesh", "h_max h_min order triangles vertices"),
         ("/unknowns", "displacement multiplier"),

@@ -136,7 +136,7 @@ mod tests {
         };
         let force = Quantity::Force("seam".into());
         assert_eq!(asked(&[force.clone(), Quantity::Energy], 1e-2), 1.6e-2);
-        assert_eq!(asked(&[force.clone()], 1e-6), MOST_LEFT);
+        assert_eq!(asked(std::slice::from_ref(&force), 1e-6), MOST_LEFT);
         assert_eq!(asked(&[force, Quantity::Ends("seam".into())], 1e-2), MOST_LEFT, "ends feel all of it");
         assert_eq!(most_left(None), MOST_LEFT);
     }

@@ -71,6 +71,7 @@ pub fn with_fields(before: Summary, case: &Case, found: &Evaluation) -> Result<S
         balance: balance(found),
         strain_max: bodies().zip(found.deformations.iter().map(|body| Some(body.strain))).collect(),
         rotation: bodies().zip(found.deformations.iter().map(|body| Some(body.rotation))).collect(),
+        rotation_max: bodies().zip(found.deformations.iter().map(|body| Some(body.turned))).collect(),
         displacement_max: Some(found.moved),
         probe: probes(case, found)?,
         plane: (case.plane == Plane::Revolution).then(|| "axisymmetric".into()),

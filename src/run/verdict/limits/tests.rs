@@ -30,7 +30,7 @@ const ROWS: [(&str, &Limit); 27] = [
     ("slip_at_ends", &SLIP_AT_ENDS),
     ("rotation_error", &TURNING),
     ("rotation_error", &GROWTH),
-    ("rotation", &ROTATION),
+    ("rotation_max", &ROTATION),
     ("strain_max", &STRAIN),
     ("ν of P1 triangles", &P1_LOCKS),
 ];

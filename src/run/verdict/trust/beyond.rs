@@ -60,7 +60,7 @@ pub fn strain_doubts(summary: &Summary) -> Vec<Doubt> {
 
 /// What tells that bodies turn farther than any theory of small rotations goes.
 pub fn rotation_doubts(summary: &Summary) -> Vec<Doubt> {
-    let far = summary.rotation.iter().filter_map(|(body, angle)| Some((body, angle.filter(|a| a.abs() > ROTATION.value)?)));
+    let far = summary.rotation_max.iter().filter_map(|(body, angle)| Some((body, angle.filter(|a| a.abs() > ROTATION.value)?)));
     far.map(|(body, angle)| ROTATION.doubt(angle, &[("of", body)])).collect()
 }
 

@@ -69,8 +69,8 @@ fn a_pressure_is_doubted_by_what_is_far_off() {
 #[test]
 fn far_rotations_are_doubted_wherever_contact_is() {
     let told = |angle| {
-        let rotation = [("arm".to_string(), Some(angle))].into();
-        rotation_doubts(&Summary { rotation, ..Summary::default() }).into_iter().map(|doubt| doubt.figure).collect::<String>()
+        let rotation_max = [("arm".to_string(), Some(angle))].into();
+        rotation_doubts(&Summary { rotation_max, ..Summary::default() }).into_iter().map(|doubt| doubt.figure).collect::<String>()
     };
     assert_eq!(told(0.1), "");
     assert!(told(-0.4).contains("body arm turns by -0.40"));
@@ -198,7 +198,7 @@ fn noise_between_bodies_that_have_only_moved_is_no_pressure() {
 
 #[test]
 fn what_is_beyond_the_model_spoils_the_force_too() {
-    let turned = judged(true, |summary| _ = summary.rotation.insert("upper".into(), Some(0.5)), &[]);
+    let turned = judged(true, |summary| _ = summary.rotation_max.insert("upper".into(), Some(0.5)), &[]);
     assert!(turned.0 == Some(false) && turned.1 == Some(false) && turned.2.contains("body upper turns"), "{turned:?}");
     let (locked, words) = (["mesh.order=1", "body.upper.poisson=0.499"], "body upper has ν = 0.499 with P1 triangles");
     let found = judged(true, |_| (), &locked);
