@@ -31,7 +31,8 @@ mod space;
 
 pub use acting::BY_ROUNDING;
 pub use contacts::{
-    BoundaryMotion, Contact, ContactPressure, Coupled, Coupling, beside, bilateral, check_soundness, coupled_here, widest,
+    BoundaryMotion, Contact, ContactPressure, Coupled, Coupling, beside, bilateral, check_soundness, coupled_here,
+    refused_contacts, widest,
 };
 pub use elements::Element;
 pub use error::{SystemError, agreed};

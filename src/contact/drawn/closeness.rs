@@ -17,7 +17,7 @@ const OPPOSITE: f64 = -0.5;
 /// Boundaries nearer than this share of the smaller body are close.
 const CLOSE: f64 = 0.1;
 
-/// Boundaries of a body that is close to none may be this share of the smaller body apart.
+/// Boundaries of a body that is close to none may be this share of the smaller body apart, and overlaps as deep.
 const APART: f64 = 0.5;
 
 /// A further pair of two bodies is as near as this share of the smaller one.
@@ -25,6 +25,9 @@ const TOUCHING: f64 = 0.02;
 
 /// Distances that differ by less than this share of the smaller body are alike.
 const ALIKE: f64 = 1e-4;
+
+/// Places behind another side that are looked at for whether both bodies are there: that costs a pass over their triangles for each.
+const LOOKED_AT: usize = 8;
 
 /// Edges that turn by more than this from one to the next (radians, 31 degrees) meet at a corner: fewer than twelve around a circle
 /// are a polygon that may be meant.
@@ -61,16 +64,15 @@ struct Sight {
 }
 
 impl Sight {
-    /// How far another place lies along the normal (length), if it looks back, lies within reach, and not far aside.
-    fn faces(&self, other: &Self, reach: f64) -> Option<f64> {
+    /// How far another place lies along the normal (length), if it looks back, lies within reach behind or ahead, and not far aside.
+    fn faces(&self, other: &Self, [behind, ahead]: [f64; 2]) -> Option<f64> {
         if self.normal.dot(&other.normal) >= OPPOSITE {
             return None;
         }
         let way = other.place - self.place;
         let along = way.dot(&self.normal);
         let aside = (way - along * self.normal).norm();
-        // What lies behind is an overlap only if it is small.
-        let is_near = (-CLOSE * reach..=reach).contains(&along) && aside <= 0.5 * along.abs() + self.spacing + other.spacing;
+        let is_near = (-behind..=ahead).contains(&along) && aside <= 0.5 * along.abs() + self.spacing + other.spacing;
         is_near.then_some(along)
     }
 }
@@ -88,6 +90,8 @@ pub struct CloseSide {
     spacing: f64,
     /// How far its straight edges lie from the curve that they are drawn for (length).
     bow: f64,
+    /// How far the chords of all its edges lie from their curves (length).
+    sagitta: f64,
 }
 
 impl CloseSide {
@@ -110,7 +114,8 @@ impl CloseSide {
         let sights = edges.iter().step_by(step).flat_map(on_edge).collect();
         let length = edges.iter().map(|&edge| mesh.edge_length(edge)).sum();
         edges.sort_unstable();
-        Some(Self { bow: bow(mesh, &edges), ..Self::new(Some(body), edges, length, sights) })
+        let [bow, sagitta] = sagittas(mesh, &edges);
+        Some(Self { bow, sagitta, ..Self::new(Some(body), edges, length, sights) })
     }
 
     /// The surface of a rigid tool, which may look to either side of its curves.
@@ -135,7 +140,7 @@ impl CloseSide {
     fn new(body: Option<usize>, edges: Vec<u32>, length: f64, sights: Vec<Sight>) -> Self {
         let around = bounds(sights.iter().map(|sight| sight.place));
         let spacing = sights.iter().map(|sight| sight.spacing).fold(0.0, f64::max);
-        Self { body, edges, length, sights, around, spacing, bow: 0.0 }
+        Self { body, edges, length, sights, around, spacing, bow: 0.0, sagitta: 0.0 }
     }
 
     /// Places of the side that are within a distance of the box around another side.
@@ -144,38 +149,48 @@ impl CloseSide {
         self.sights.iter().filter(|sight| sight.place >= low && sight.place <= high).collect()
     }
 
-    /// Least distance along a normal at which another side is faced within `reach`, over a length; where they overlap by more than
-    /// their straight edges do, the largest depth, as a negative number.
-    fn distance(&self, other: &Self, reach: f64) -> Option<f64> {
-        let (mut nearest, mut deepest, mut is_faced) = (None::<f64>, 0.0_f64, false);
-        let farthest = 1.5 * reach + self.spacing + other.spacing;
+    /// Least distance along a normal at which another side is faced, over a length, within two shares of a size, behind and ahead;
+    /// where they overlap by more than their straight edges do, the largest depth, as a negative number. And whether they lie in the
+    /// bodies of each other: far behind nothing else counts.
+    fn distance(&self, other: &Self, mesh: &MacroMesh, most: [f64; 2], size: f64) -> Option<(f64, bool)> {
+        let reach = most.map(|share| share * size);
+        let bows = 2.0 * (self.bow + other.bow);
+        let (mut nearest, mut deepest, mut is_faced, mut behind) = (None::<f64>, 0.0_f64, false, Vec::new());
+        let farthest = 1.5 * reach[1] + self.spacing + other.spacing;
         let others = other.near(self, farthest);
         for a in self.near(other, farthest) {
-            let faced = others.iter().filter_map(|b| {
-                let along = a.faces(b, reach)?;
-                is_faced |= !a.is_end && !b.is_end;
-                Some(along)
-            });
-            let own = faced.min_by(|a, b| a.abs().total_cmp(&b.abs()));
-            deepest = deepest.min(own.unwrap_or_default());
-            nearest = own.into_iter().chain(nearest).min_by(|a, b| a.abs().total_cmp(&b.abs()));
+            let faced = others.iter().filter_map(|b| Some((a.faces(b, reach)?, b)));
+            let is_shallow = |along: f64| along >= -CLOSE * reach[1];
+            let faced = faced.inspect(|(along, b)| is_faced |= !a.is_end && !b.is_end && is_shallow(*along));
+            let Some((along, b)) = faced.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs())) else { continue };
+            behind.extend((along < -bows.max(ALIKE * size)).then_some((along, [a.place, b.place])));
+            if is_shallow(along) {
+                deepest = deepest.min(along);
+                nearest = nearest.into_iter().chain([along]).min_by(|a, b| a.abs().total_cmp(&b.abs()));
+            }
         }
-        let bows = self.bows(other);
-        nearest.filter(|_| is_faced).map(|nearest| if deepest < -bows { deepest } else { nearest })
+        let drawn = nearest.filter(|_| is_faced).map(|nearest| (if deepest < -bows { deepest } else { nearest }, false));
+        self.depth(other, mesh, behind).map(|depth| (depth, true)).or(drawn)
+    }
+
+    /// The largest depth of places behind each other, of this side and of another, between which both bodies are, after a quarter of
+    /// the way and after three: half-way they are, too, between the far sides of bodies that overlap a little.
+    fn depth(&self, other: &Self, mesh: &MacroMesh, mut behind: Vec<(f64, [Point; 2])>) -> Option<f64> {
+        let bodies = [self.body?, other.body?];
+        let of = |body: usize| (0..mesh.triangles.len()).filter(move |&triangle| mesh.triangles[triangle].body as usize == body);
+        let is_held = |x: Point| bodies.iter().all(|&body| of(body).any(|triangle| mesh.locate(triangle, x).is_some()));
+        behind.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut few = behind.iter().step_by(behind.len().div_ceil(LOOKED_AT).max(1));
+        few.find(|(_, [a, b])| [0.25, 0.75].iter().all(|t| is_held(a + *t * (b - a)))).map(|(along, _)| *along)
     }
 
     /// Least distance along a normal at which another side is faced within `reach` where a third one is not.
     fn distance_beside(&self, other: &Self, third: &Self, reach: f64) -> Option<f64> {
-        let farthest = 1.5 * reach + self.spacing + other.spacing.max(third.spacing);
+        let (farthest, within) = (1.5 * reach + self.spacing + other.spacing.max(third.spacing), [CLOSE * reach, reach]);
         let [others, thirds] = [other, third].map(|side| side.near(self, farthest));
         let places =
-            self.near(other, farthest).into_iter().filter(|a| !a.is_end && thirds.iter().all(|b| a.faces(b, reach).is_none()));
-        places.flat_map(|a| others.iter().filter_map(|b| Some(a.faces(b, reach)?.abs()))).reduce(f64::min)
-    }
-
-    /// How far straight edges of this side and another lie from their curves together, on either way (length).
-    fn bows(&self, other: &Self) -> f64 {
-        2.0 * (self.bow + other.bow)
+            self.near(other, farthest).into_iter().filter(|a| !a.is_end && thirds.iter().all(|b| a.faces(b, within).is_none()));
+        places.flat_map(|a| others.iter().filter_map(|b| Some(a.faces(b, within)?.abs()))).reduce(f64::min)
     }
 
     /// Whether this side and another have an edge in common.
@@ -185,21 +200,27 @@ impl CloseSide {
     }
 }
 
-/// How far straight edges that follow each other lie from the curve that they are drawn for (length): an edge h of a curve that turns
-/// by θ from one edge to the next is off by h θ/8. Larger turns are corners.
-fn bow(mesh: &MacroMesh, edges: &[u32]) -> f64 {
+/// How far straight edges that follow each other, and the chords of all edges, lie from the curve that they are drawn for (length): an
+/// edge h of a curve that turns by θ from one edge to the next, or from its one end to the other, is off by h θ/8. Larger turns
+/// between edges are corners.
+fn sagittas(mesh: &MacroMesh, edges: &[u32]) -> [f64; 2] {
     let mut before: HashMap<u32, u32> = HashMap::new();
-    let mut most = 0.0_f64;
-    for &edge in edges.iter().filter(|&&edge| mesh.edges[edge as usize].shape.is_none()) {
+    let [mut straight, mut curved] = [0.0_f64; 2];
+    for &edge in edges {
+        let length = mesh.edge_length(edge);
+        if mesh.edges[edge as usize].shape.is_some() {
+            curved = curved.max(length * mesh.edge_normal(edge, 0.0).angle(&mesh.edge_normal(edge, 1.0)) / 8.0);
+            continue;
+        }
         for vertex in mesh.edges[edge as usize].vertices {
             let Some(other) = before.insert(vertex, edge) else { continue };
             let turn = mesh.edge_normal(edge, 0.5).angle(&mesh.edge_normal(other, 0.5));
             if turn <= WIDEST_TURN {
-                most = most.max(mesh.edge_length(edge).max(mesh.edge_length(other)) * turn / 8.0);
+                straight = straight.max(length.max(mesh.edge_length(other)) * turn / 8.0);
             }
         }
     }
-    most
+    [straight, straight.max(curved)]
 }
 
 /// Two sides of different bodies that face each other, by their indices.
@@ -209,20 +230,27 @@ struct FacingSides {
     distance: f64,
     /// Size of that distance as a share of the smaller body.
     share: f64,
+    /// Whether they lie in the bodies of each other.
+    overlaps: bool,
     length: f64,
 }
 
-/// All pairs of sides that face each other within a share of the smaller of their bodies and are asked for; of a body and a tool
-/// the body comes first, of others the first body of the mesh. The nearest come first; of two names for the same place the one
-/// of the shorter boundary, which says more.
-fn facing_sides(mesh: &MacroMesh, sides: &[CloseSide], most: f64, is_asked: impl Fn(usize, usize) -> bool) -> Vec<FacingSides> {
+/// All pairs of sides that face each other within two shares of the smaller of their bodies, behind and ahead, and are asked for; of
+/// a body and a tool the body comes first, of others the first body of the mesh. The nearest come first; of two names for the same
+/// place the one of the shorter boundary, which says more.
+fn facing_sides(
+    mesh: &MacroMesh,
+    sides: &[CloseSide],
+    most: [f64; 2],
+    is_asked: impl Fn(usize, usize) -> bool,
+) -> Vec<FacingSides> {
     let sizes = body_sizes(mesh);
     let size = |side: &CloseSide| side.body.map_or(f64::INFINITY, |body| sizes[body]);
     let whole = sizes.iter().copied().fold(0.0, f64::max);
     // Two discs reach each other wherever their boxes come as near as half the sum of what each may reach.
     let disc = |side: &CloseSide| {
         let [low, high] = side.around;
-        let radius = 0.5 * (high - low).norm() + 0.75 * most * size(side).min(whole) + side.spacing;
+        let radius = 0.5 * (high - low).norm() + 0.75 * most[1] * size(side).min(whole) + side.spacing;
         Disc { middle: 0.5 * (low + high), radius }
     };
     let discs: Vec<Disc> = sides.iter().map(disc).collect();
@@ -238,9 +266,10 @@ fn facing_sides(mesh: &MacroMesh, sides: &[CloseSide], most: f64, is_asked: impl
     let facing = |[a, b]: [usize; 2]| {
         let [first, second] = [&sides[a], &sides[b]];
         let size = size(first).min(size(second));
-        let distance = first.distance(second, most * size)?;
+        let (distance, overlaps) = first.distance(second, mesh, most, size)?;
         let distance = if distance.abs() < 1e-9 * size { 0.0 } else { distance };
-        Some(FacingSides { sides: [a, b], distance, share: distance.abs() / size, length: first.length + second.length })
+        let (share, length) = (distance.abs() / size, first.length + second.length);
+        Some(FacingSides { sides: [a, b], distance, share, overlaps, length })
     };
     let mut pairs: Vec<FacingSides> = candidates.into_iter().filter_map(facing).collect();
     let order = |pair: &FacingSides| ((1e3 * pair.share).round(), pair.length);
@@ -249,8 +278,8 @@ fn facing_sides(mesh: &MacroMesh, sides: &[CloseSide], most: f64, is_asked: impl
 }
 
 /// Pairs of named boundaries of different bodies that lie close and face each other, the nearest first. Of two bodies one pair
-/// is enough, unless others touch too, elsewhere; a body that is close to none has its nearest pair. Pairs that are `taken` already, of
-/// two bodies each, are none of them, and neither is another name for their place.
+/// is enough, unless others touch too, elsewhere, or are drawn into each other; a body that is close to none has its nearest pair.
+/// Pairs that are `taken` already, of two bodies each, are none of them, and neither is another name for their place.
 pub fn close_pairs(mesh: &MacroMesh, taken: &[[String; 2]]) -> Vec<ClosePair> {
     let side = |boundary: &Boundary| CloseSide::of_boundaries(mesh, std::iter::once(boundary));
     let named = mesh.boundaries.iter().filter(|boundary| !boundary.is_union);
@@ -271,13 +300,14 @@ pub fn close_pairs(mesh: &MacroMesh, taken: &[[String; 2]]) -> Vec<ClosePair> {
         sides.extend([first, second]);
     }
     let sizes = body_sizes(mesh);
-    for pair in facing_sides(mesh, &sides, APART, |a, b| a < count && b < count) {
+    for pair in facing_sides(mesh, &sides, [APART; 2], |a, b| a < count && b < count) {
         let bodies = pair.sides.map(|side| sides[side].body);
         let [Some(first), Some(second)] = bodies else { continue };
         let size = sizes[first].min(sizes[second]);
         let others = alike.entry(bodies).or_default();
         let is_meant = match others.is_empty() {
-            true => pair.share <= CLOSE || bodies.iter().any(|body| !met.contains(body)),
+            true => pair.overlaps || pair.share <= CLOSE || bodies.iter().any(|body| !met.contains(body)),
+            false if pair.overlaps => others.iter().all(|other| pair.shares(&sides, *other) != [true; 2]),
             false => pair.share <= TOUCHING && others.iter().all(|other| pair.is_beside(&sides, *other, size)),
         };
         if is_meant {
@@ -291,12 +321,18 @@ pub fn close_pairs(mesh: &MacroMesh, taken: &[[String; 2]]) -> Vec<ClosePair> {
 }
 
 impl FacingSides {
+    /// Whether each side has edges in common with that of another pair.
+    fn shares(&self, sides: &[CloseSide], other: [usize; 2]) -> [bool; 2] {
+        [0, 1].map(|k| sides[self.sides[k]].shares_edges(&sides[other[k]]))
+    }
+
     /// Whether the sides come as close as they do beside another pair of the same bodies of that size, too: they touch elsewhere, and
     /// are no other names for the same place, nor what goes on from there.
     fn is_beside(&self, sides: &[CloseSide], other: [usize; 2], size: f64) -> bool {
-        let shared = [0, 1].map(|k| sides[self.sides[k]].shares_edges(&sides[other[k]]));
+        let shared = self.shares(sides, other);
         let [first, second] = self.sides.map(|side| &sides[side]);
-        let most = self.distance.abs() + first.bows(second).max(ALIKE * size);
+        // Between two places of one edge a gap changes by as much as its chord is off.
+        let most = self.distance.abs() + (2.0 * (first.sagitta + second.sagitta)).max(ALIKE * size);
         (0..2).filter(|&k| shared[k] || shared == [false; 2]).all(|k| {
             let [own, faced, third] = [self.sides[k], self.sides[1 - k], other[1 - k]].map(|side| &sides[side]);
             own.distance_beside(faced, third, TOUCHING * size).is_some_and(|distance| distance <= most)
@@ -308,7 +344,7 @@ impl FacingSides {
 /// is in two of them. What is asked for is the same both ways.
 pub fn close_sides(mesh: &MacroMesh, sides: &[CloseSide], is_asked: impl Fn(usize, usize) -> bool) -> Vec<[usize; 2]> {
     let mut alike: HashMap<[Result<usize, usize>; 2], Vec<[usize; 2]>> = HashMap::new();
-    for pair in facing_sides(mesh, sides, CLOSE, is_asked) {
+    for pair in facing_sides(mesh, sides, [CLOSE * CLOSE, CLOSE], is_asked) {
         // Each tool is a body of its own.
         let others = alike.entry(pair.sides.map(|side| sides[side].body.ok_or(side))).or_default();
         let shares_edges = |other: &[usize; 2]| (0..2).any(|k| sides[other[k]].shares_edges(&sides[pair.sides[k]]));

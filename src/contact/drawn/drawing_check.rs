@@ -20,28 +20,23 @@ const WITHIN_EDGES: f64 = 0.1;
 const POLYGONS: f64 = 4.0;
 
 impl Facing<'_> {
-    /// Looks at the contacts of a mesh, each by itself and against those that reach the same edges: of many contacts few do.
-    ///
-    /// # Errors
-    /// The index of a contact and words, if its boundaries turn their backs to each other, lie on the wrong sides of each other,
-    /// or are said to touch and lie apart, or if another contact claims the same place.
-    pub fn check_all(all: &[Self], mesh: &MacroMesh) -> Result<(), (usize, String)> {
+    /// Looks at the contacts of a mesh, each by itself and against those that reach the same edges: of many contacts few do. Returns
+    /// the indices of those that are refused, with words: their boundaries turn their backs to each other, lie on the wrong sides of
+    /// each other, or are said to touch and lie apart, or another contact before them, which is not refused, claims the same place.
+    pub fn refused(all: &[Self], mesh: &MacroMesh) -> Vec<(usize, String)> {
         let mut of_bodies = vec![Vec::new(); mesh.bodies.len()];
         (0..mesh.triangles.len()).for_each(|triangle| of_bodies[mesh.triangles[triangle].body as usize].push(triangle));
-        let mut reached: HashMap<_, Vec<usize>> = HashMap::new();
+        let (mut reached, mut refused) = (HashMap::<_, Vec<usize>>::new(), Vec::new());
         for (at, facing) in all.iter().enumerate() {
-            facing.check(mesh, &of_bodies).map_err(|why| (at, why))?;
             let keys: HashSet<_> = facing.seen.iter().flatten().filter(|seen| seen.faces).map(Seen::key).collect();
-            let mut others = BTreeSet::new();
-            for key in keys {
-                let there = reached.entry(key).or_default();
-                others.extend(there.iter().copied());
-                there.push(at);
+            let others: BTreeSet<usize> = keys.iter().filter_map(|key| reached.get(key)).flatten().copied().collect();
+            let clash = || others.into_iter().find_map(|other| facing.clash(&all[other]));
+            match facing.check(mesh, &of_bodies).err().or_else(clash) {
+                Some(why) => refused.push((at, why)),
+                None => keys.into_iter().for_each(|key| reached.entry(key).or_default().push(at)),
             }
-            let clash = others.into_iter().find_map(|other| facing.clash(&all[other]));
-            clash.map_or(Ok(()), |why| Err((at, why)))?;
         }
-        Ok(())
+        refused
     }
 
     /// Looks at one contact by itself; `of_bodies` are the triangles of each body.
@@ -121,7 +116,8 @@ mod tests {
     fn checked(gap: GapChoice, between: [&str; 2], upper: impl Fn(Point) -> Point) -> Result<(), String> {
         let (mesh, numbering) = moved_blocks(upper);
         let pair = Pair { gap, between: between.map(String::from), ..seam() };
-        Facing::check_all(&[Facing::new(&mesh, &numbering, &pair, &line([0.0, 2.0]))], &mesh).map_err(|(_, words)| words)
+        let refused = Facing::refused(&[Facing::new(&mesh, &numbering, &pair, &line([0.0, 2.0]))], &mesh);
+        refused.into_iter().next().map_or(Ok(()), |(_, words)| Err(words))
     }
 
     #[test]

@@ -85,8 +85,10 @@ impl Contact {
     pub fn all(scene: &Scene, numbering: &Numbering, rank: usize) -> Result<Vec<Self>, SystemError> {
         let nothing = vec![Known::default(); scene.pairs.len()];
         let contacts = Self::all_again(scene, numbering, rank, &nothing, &|_| Point::zeros())?;
-        check_facing(scene, numbering, &contacts)?;
-        Ok(contacts)
+        match not_facing(scene, numbering, &contacts).first() {
+            Some((at, why)) => Err(SystemError::Case(format!("contact.{}: {why}", contacts[*at].pair.name))),
+            None => Ok(contacts),
+        }
     }
 
     /// Places every contact again, by what is `known` of each, on bodies moved by `displacement`.
@@ -292,12 +294,10 @@ fn is_stabilised(pair: &Pair, has_short_segments: bool) -> bool {
     }
 }
 
-/// The boundaries of every contact must face each other, and no two contacts claim the same place.
-fn check_facing(scene: &Scene, numbering: &Numbering, contacts: &[Contact]) -> Result<(), SystemError> {
-    let all: Vec<Facing> =
-        contacts.iter().map(|contact| Facing::new(&scene.mesh, numbering, &contact.pair, &contact.boundary)).collect();
-    Facing::check_all(&all, &scene.mesh)
-        .map_err(|(at, why)| SystemError::Case(format!("contact.{}: {why}", contacts[at].pair.name)))
+/// The boundaries of every contact must face each other, and no two contacts claim the same place: those that do not, and words.
+pub(crate) fn not_facing(scene: &Scene, numbering: &Numbering, contacts: &[Contact]) -> Vec<(usize, String)> {
+    let facing = contacts.iter().map(|contact| Facing::new(&scene.mesh, numbering, &contact.pair, &contact.boundary));
+    Facing::refused(&facing.collect::<Vec<_>>(), &scene.mesh)
 }
 
 #[cfg(test)]

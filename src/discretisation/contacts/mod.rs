@@ -13,4 +13,4 @@ pub use contact::Contact;
 pub use contact_pressure::ContactPressure;
 pub use coupling::{Coupled, Coupling, bilateral, coupled_here};
 pub use reach::{beside, widest};
-pub use soundness::check_soundness;
+pub use soundness::{check_soundness, refused_contacts};

@@ -8,8 +8,8 @@ use crate::mesh::MacroMesh;
 use crate::output::summary::lines_alike;
 use crate::procedure::Procedure;
 use crate::run::checking::acting_lines::acting_lines;
-use crate::run::checking::proposals::{proposed_contacts, proposed_supports};
-use crate::run::checking::tools::proposed_tools;
+use crate::run::checking::proposals::{proposed_contacts, proposed_supports, take_refused, with_tables};
+use crate::run::checking::tools::{ProposedTool, ProposedTools};
 use crate::run::outcome::RunError;
 use crate::run::reading::checks::check_pressures;
 use crate::run::reading::{origin, scene};
@@ -153,13 +153,16 @@ fn body_lines(case: &Case) -> Vec<String> {
 
 /// What may be missing, as TOML to paste.
 fn proposals(case: &Case, mesh: &MacroMesh, is_loose: bool) -> String {
-    let [contacts, refused] = proposed_contacts(case, mesh);
+    let [contacts, mut refused] = proposed_contacts(case, mesh);
     let supports = if is_loose { proposed_supports(case) } else { Vec::new() };
-    let tools = proposed_tools(mesh, &case.tools, &case.contacts).into_iter().map(|tool| tool.text).collect();
+    let mut tools = ProposedTools::of(mesh, &case.tools, &case.contacts).tools;
+    let tables = |tools: &[ProposedTool]| -> Vec<String> { tools.iter().map(|tool| tool.text.clone()).collect() };
+    let aside = take_refused(&mut tools, |tool| &tool.between, |tools| with_tables(case, tables(tools)));
+    refused.extend(aside.into_iter().map(|(tool, why)| tool.set_aside(&why)));
     let mut text = String::new();
     for (tables, words) in [
         (contacts, "these boundaries lie close and are in no contact; if they may touch, paste this into the case:"),
-        (tools, "these curves of the mesh bound no body; if they are rigid tools, paste this into the case:"),
+        (tables(&tools), "these curves of the mesh bound no body; if they are rigid tools, paste this into the case:"),
         (supports, "supports like these would hold the bodies; paste into the case what you mean:"),
     ] {
         if !tables.is_empty() {

@@ -3,12 +3,12 @@
 use crate::case::Case;
 use crate::case::error::dotted;
 use crate::contact::{ClosePair, Extent, Mechanism, close_pairs, drawn_gap};
+use crate::discretisation;
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{Level, MacroMesh, Numbering, Partition, Spot};
 use crate::procedure::Procedure;
 use crate::run::reading::scene;
-use std::path::Path;
 use std::rc::Rc;
 use toml::Value;
 
@@ -99,44 +99,58 @@ pub(crate) fn digits(value: f64, size: f64) -> f64 {
 pub(crate) fn proposed_contacts(case: &Case, mesh: &MacroMesh) -> [Vec<String>; 2] {
     let taken: Vec<[String; 2]> = case.contacts.iter().map(|contact| contact.between.clone()).collect();
     let names = TableNames::of(case.contacts.iter().map(|pair| pair.name.clone()));
-    let mut close: Vec<ClosePair> = close_pairs(mesh, &taken).into_iter().filter(|pair| pair.share() <= CLOSE).collect();
+    let is_close = |pair: &ClosePair| pair.distance <= CLOSE * pair.size;
+    let mut close: Vec<ClosePair> = close_pairs(mesh, &taken).into_iter().filter(is_close).collect();
     let tables = |close: &[ClosePair], mut names: TableNames| close.iter().map(|pair| contact_table(pair, &mut names)).collect();
-    let drawn: Vec<String> = tables(&close, names.clone());
-    if let Ok(case) = Case::parse(&format!("{}\n{}", case.resolved(), drawn.join("\n")), &case.file, &[]) {
+    let with = |pairs: &[ClosePair]| with_tables(case, tables(pairs, names.clone()));
+    if let Some(case) = with(&close) {
         measure(&mut close, &case);
     }
-    let refused = take_refused(&mut close, |pairs| {
-        let tables: Vec<String> = tables(pairs, names.clone());
-        Case::parse(&format!("{}\n{}", case.resolved(), tables.join("\n")), &case.file, &[]).ok()
-    });
+    let told = |(pair, why): (ClosePair, String)| {
+        let [a, b] = pair.between.each_ref().map(|name| quoted(name));
+        format!("the boundaries {a} and {b} lie close; as they are drawn no contact can be made of them: {why}")
+    };
+    let refused = take_refused(&mut close, |pair| &pair.between, with).into_iter().map(told).collect();
     [tables(&close, names.clone()), refused]
 }
 
-/// Takes away the pairs of which no contact can be made as they are drawn, and says why; `with` is the case with contacts of some pairs.
-fn take_refused(pairs: &mut Vec<ClosePair>, with: impl Fn(&[ClosePair]) -> Option<Case>) -> Vec<String> {
-    let mut told = Vec::new();
-    while !pairs.is_empty() {
-        let Some((between, why)) = with(pairs).and_then(|case| refusal(&case)) else { break };
-        let Some(at) = pairs.iter().position(|pair| pair.between == between) else { break };
-        let [a, b] = pairs.remove(at).between.each_ref().map(|name| quoted(name));
-        told.push(format!("the boundaries {a} and {b} lie close; as they are drawn no contact can be made of them: {why}"));
+/// A case with further tables, if that is one.
+pub(crate) fn with_tables(case: &Case, tables: Vec<String>) -> Option<Case> {
+    Case::parse(&format!("{}\n{}", case.resolved(), tables.join("\n")), &case.file, &[]).ok()
+}
+
+/// Takes away what stands for contacts between two sides that cannot be made as they are drawn, with the reasons; `with` is the case
+/// with some of them. One look names all that are refused, a second one sees that no other is.
+pub(crate) fn take_refused<T>(
+    items: &mut Vec<T>,
+    between: impl Fn(&T) -> &[String; 2],
+    with: impl Fn(&[T]) -> Option<Case>,
+) -> Vec<(T, String)> {
+    let mut taken = Vec::new();
+    while !items.is_empty() {
+        let refused = with(items).map_or_else(Vec::new, |case| refused_contacts(&case));
+        let before = taken.len();
+        for item in std::mem::take(items) {
+            match refused.iter().find(|(sides, _)| sides == between(&item)) {
+                Some((_, why)) => taken.push((item, why.clone())),
+                None => items.push(item),
+            }
+        }
+        if taken.len() == before {
+            break;
+        }
     }
-    told
+    taken
 }
 
-/// The boundaries of the contact of a case that is refused first, and why; nothing if all can be placed.
-fn refusal(case: &Case) -> Option<([String; 2], String)> {
-    let mesh = scene::read_mesh_file(case).and_then(|bytes| scene::read_mesh(case, &bytes)).ok()?;
-    let error = scene::first(case, mesh).and_then(|scene| Ok(Procedure::look(&scene, 0)?)).err()?;
-    refused_contact(&error.to_string(), case)
-}
-
-/// The boundaries of the contact that words of a refusal name, and what they say of it.
-pub(crate) fn refused_contact(words: &str, case: &Case) -> Option<([String; 2], String)> {
-    case.contacts.iter().find_map(|pair| {
-        let (_, why) = words.split_once(&format!("contact.{}: ", key(&pair.name)))?;
-        Some((pair.between.clone(), why.lines().next()?.to_owned()))
-    })
+/// The sides of all contacts of a case that cannot be made as they are drawn, and why; plates that are in their way do not count.
+pub(crate) fn refused_contacts(case: &Case) -> Vec<([String; 2], String)> {
+    let mut case = case.clone();
+    case.plates.clear();
+    let mesh = scene::read_mesh_file(&case).and_then(|bytes| scene::read_mesh(&case, &bytes));
+    let Some(scene) = mesh.ok().and_then(|mesh| scene::first(&case, mesh).ok()) else { return Vec::new() };
+    let refused = discretisation::refused_contacts(&scene).unwrap_or_default();
+    refused.into_iter().map(|(pair, why)| (pair.between.clone(), why)).collect()
 }
 
 /// Gives pairs the distances at which a case draws its contacts, curves taken as they are meant; where that cannot be told they keep
@@ -159,10 +173,10 @@ pub(crate) fn proposed_supports(case: &Case) -> Vec<String> {
     let known = case.supports.iter().map(|support| support.name.clone());
     let known = known.chain(case.means.iter().map(|mean| mean.name.clone()));
     let mut names = TableNames::of(known.chain(case.springs.iter().map(|springs| springs.name.clone())));
-    let (before, mut proposed) = (case.resolved(), Vec::<Proposed>::new());
+    let mut proposed = Vec::<Proposed>::new();
     for _ in 0..MOST_SUPPORTS {
-        let tables: Vec<String> = proposed.iter().map(Proposed::table).collect();
-        match next_support(&format!("{before}\n{}", tables.join("\n")), &case.file, &proposed, &mut names) {
+        let with = with_tables(case, proposed.iter().map(Proposed::table).collect());
+        match with.and_then(|case| next_support(&case, &proposed, &mut names)) {
             Some(Proposed::Mean(mean)) => {
                 let moves = mean.moves;
                 let same = proposed.iter_mut().find_map(|other| match other {
@@ -215,14 +229,13 @@ impl Proposed {
 }
 
 /// A support for the first motion that is free in a case.
-fn next_support(text: &str, file: &Path, proposed: &[Proposed], names: &mut TableNames) -> Option<Proposed> {
-    let case = Case::parse(text, file, &[]).ok()?;
-    let mesh = scene::read_mesh_file(&case).and_then(|bytes| scene::read_mesh(&case, &bytes)).ok()?;
+fn next_support(case: &Case, proposed: &[Proposed], names: &mut TableNames) -> Option<Proposed> {
+    let mesh = scene::read_mesh_file(case).and_then(|bytes| scene::read_mesh(case, &bytes)).ok()?;
     // As `check` looks at it: contacts that are found on the first refined mesh may not be found on that of the file.
-    let scene = scene::first(&case, mesh).ok()?;
+    let scene = scene::first(case, mesh).ok()?;
     let motion = Procedure::look(&scene, 0).and_then(|at_rest| at_rest.free_motion(&scene)).ok()??;
     let extent = scene.extents()[motion.piece];
-    support_for(&case, &scene.mesh, &motion, extent, proposed, names)
+    support_for(case, &scene.mesh, &motion, extent, proposed, names)
 }
 
 /// A support that holds one free motion: of a whole body by its mean, where nothing else holds it, and else of a point, on a

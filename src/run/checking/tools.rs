@@ -5,7 +5,7 @@ use super::proposals::{TableNames, common_name, digits, quoted};
 use crate::case::Tool;
 use crate::contact::Pair;
 use crate::geometry::{Curve, Point, cross, turn_right};
-use crate::mesh::{LooseCurve, MacroMesh, SurfacePart};
+use crate::mesh::{Boundary, LooseCurve, MacroMesh, SurfacePart};
 use std::f64::consts::TAU;
 
 /// Points that are nearer than this share of its length to the line between the ends of a curve lie on it.
@@ -17,33 +17,76 @@ const FACES: f64 = 0.5;
 /// A tool that is farther than this share of a curve's size from any of its points is another one.
 const ELSEWHERE: f64 = 1e-6;
 
-/// The example moves a tool into the body by this share of the length of the boundary.
-const PRESSED: f64 = 1e-3;
+/// The example moves a tool into the body by this share of the narrow side of the body's box: its nominal strain is no larger.
+pub const PRESSED: f64 = 1e-3;
+
+/// A line that lies in a body deeper than this share of its narrow side presses on none: nominal strains of a tenth are not small.
+const DEEP: f64 = 0.1;
 
 /// A rigid tool that a curve of the mesh may be drawn for.
 pub struct ProposedTool {
-    /// The boundary that it presses on.
-    pub boundary: String,
+    /// Name of the curve.
+    curve: String,
+    /// The boundary that it presses on, and the tool.
+    pub between: [String; 2],
     /// Its tables.
     pub text: String,
 }
 
-/// The tools that the curves without triangles may be drawn for, where they are straight or circles, face a boundary and are none of
-/// the tools of the case.
-pub fn proposed_tools(mesh: &MacroMesh, tools: &[Tool], contacts: &[Pair]) -> Vec<ProposedTool> {
-    let mut names = TableNames::of(tools.iter().map(|tool| tool.key().trim_start_matches("rigid.").to_owned()));
-    let mut names_of_contacts = TableNames::of(contacts.iter().map(|pair| pair.name.clone()));
-    let is_new = |curve: &&LooseCurve| !tools.iter().any(|tool| is_drawn(curve, &tool.surface));
-    let proposed = mesh.loose.iter().filter(is_new).filter_map(|curve| {
-        let (shape, surface) = shape_of(curve)?;
-        let (boundary, motion) = pressed(mesh, tools, &surface)?;
-        let name = names.fresh(&curve.name);
-        let contact = names_of_contacts.fresh(&common_name(&[boundary.clone(), name.clone()]));
-        let sides = [&boundary, &format!("rigid.{name}")].map(|side| quoted(side)).join(", ");
-        let text = format!("[rigid.{name}]\n{shape}\n{motion}\n[contact.{contact}]\nbetween = [{sides}]\n");
-        Some(ProposedTool { boundary, text })
-    });
-    proposed.collect()
+impl ProposedTool {
+    /// Words for a tool that is not proposed.
+    pub fn set_aside(&self, why: &str) -> String {
+        set_aside(&self.curve, why)
+    }
+}
+
+fn set_aside(curve: &str, why: &str) -> String {
+    format!("curve {} bounds no body, and is not taken for a rigid tool: {why}", quoted(curve))
+}
+
+/// The tools that the curves without triangles may be drawn for.
+pub struct ProposedTools {
+    pub tools: Vec<ProposedTool>,
+    /// Words for each curve that none can be made of.
+    pub aside: Vec<String>,
+}
+
+impl ProposedTools {
+    /// Those that are straight or circles, face a boundary, do not lie inside of a body, and are none of the tools of the case.
+    pub fn of(mesh: &MacroMesh, tools: &[Tool], contacts: &[Pair]) -> Self {
+        let mut names = TableNames::of(tools.iter().map(|tool| tool.key().trim_start_matches("rigid.").to_owned()));
+        let mut names_of_contacts = TableNames::of(contacts.iter().map(|pair| pair.name.clone()));
+        let mut proposed = Self { tools: Vec::new(), aside: Vec::new() };
+        for curve in mesh.loose.iter().filter(|curve| !tools.iter().any(|tool| is_drawn(curve, &tool.surface))) {
+            match pressing(mesh, tools, curve) {
+                Ok((boundary, lines)) => {
+                    let name = names.fresh(&curve.name);
+                    let contact = names_of_contacts.fresh(&common_name(&[boundary.clone(), name.clone()]));
+                    let between = [boundary, format!("rigid.{name}")];
+                    let sides = between.each_ref().map(|side| quoted(side)).join(", ");
+                    let text = format!("[rigid.{name}]\n{lines}\n[contact.{contact}]\nbetween = [{sides}]\n");
+                    proposed.tools.push(ProposedTool { curve: curve.name.clone(), between, text });
+                }
+                Err(why) => proposed.aside.push(set_aside(&curve.name, &why)),
+            }
+        }
+        proposed
+    }
+}
+
+/// The boundary that a curve would press on as a tool, and the lines of its table; or why it is none.
+fn pressing(mesh: &MacroMesh, tools: &[Tool], curve: &LooseCurve) -> Result<(String, String), String> {
+    let (shape, surface) = shape_of(curve).ok_or("it is neither straight nor a circle")?;
+    let (boundary, normal, gap) = pressed(mesh, tools, &surface).ok_or("it faces no boundary that has a name")?;
+    let body = mesh.body_beside(boundary.edges[0]);
+    let own = mesh.pieces.iter().zip(mesh.bounds()).filter(|(piece, _)| piece.body == body);
+    let narrow = own.map(|(_, [low, high])| (high - low).min()).fold(f64::INFINITY, f64::min);
+    let of_body = |triangle: &usize| mesh.triangles[*triangle].body as usize == body;
+    let holds = |x: &Point| (0..mesh.triangles.len()).filter(of_body).any(|triangle| mesh.locate(triangle, *x).is_some());
+    if (!surface.curve.is_line() || -gap > DEEP * narrow) && curve.lines.iter().flatten().all(holds) {
+        return Err(format!("it lies inside of body {}", quoted(&mesh.bodies[body])));
+    }
+    Ok((boundary.name.clone(), format!("{shape}\n{}", moved(normal, gap.max(0.0) + PRESSED * narrow))))
 }
 
 /// How the example moves a tool: along one axis, against the normal of what it presses on.
@@ -89,17 +132,16 @@ fn shape_of(curve: &LooseCurve) -> Option<(String, SurfacePart)> {
     is_straight.then(|| (format!("line = {ends:?}"), SurfacePart { curve: Curve::Line(ends), range: [0.0, 1.0] }))
 }
 
-/// The named boundary that a surface faces nearest, and how the example moves the surface until it presses there.
-fn pressed(mesh: &MacroMesh, tools: &[Tool], surface: &SurfacePart) -> Option<(String, String)> {
+/// The named boundary that a surface faces nearest, its normal there, and how far it is along that (length).
+fn pressed<'a>(mesh: &'a MacroMesh, tools: &[Tool], surface: &SurfacePart) -> Option<(&'a Boundary, Point, f64)> {
     let curves = mesh.physical_curves().into_iter().filter(|curve| !tools.iter().any(|tool| tool.has(&curve.name)));
     let named = curves.flat_map(|boundary| boundary.edges.iter().map(move |&edge| (boundary, edge)));
     let places = named.flat_map(|(boundary, edge)| [0.0, 0.5, 1.0].map(|t| (boundary, edge, t)));
     let facing = places.filter_map(|(boundary, edge, t)| {
         let (x, normal) = (mesh.edge_position(edge, t), mesh.edge_normal(edge, t));
         let (foot, across) = foot(surface, x);
-        (across.dot(&normal).abs() > FACES).then(|| ((foot - x).norm(), normal, boundary))
+        (across.dot(&normal).abs() > FACES).then(|| (foot - x, normal, boundary))
     });
-    let (distance, normal, boundary) = facing.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let length: f64 = boundary.edges.iter().map(|&edge| mesh.edge_length(edge)).sum();
-    Some((boundary.name.clone(), moved(normal, distance + PRESSED * length)))
+    let (way, normal, boundary) = facing.min_by(|a, b| a.0.norm().total_cmp(&b.0.norm()))?;
+    Some((boundary, normal, way.dot(&normal)))
 }

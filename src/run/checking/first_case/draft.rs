@@ -1,6 +1,6 @@
 //! The text of a first case.
 
-use super::guesses::{Guesses, POISSON, PRESSED, Press, Weight, YOUNG};
+use super::guesses::{Guesses, POISSON, Press, Weight, YOUNG};
 use super::named_curve::{LOADED, MIRRORED, NamedCurve, PULLED};
 use crate::contact::ClosePair;
 use crate::run::checking::node_circle::NodeCircle;
@@ -14,6 +14,10 @@ const MOST_NAMED: usize = 60;
 /// Unknowns that the example may have, and times those of the first mesh at least, so that there is room to adapt it.
 const MOST_UNKNOWNS: usize = 200_000;
 const ROOM: usize = 4;
+
+/// What is said of a mesh that may be half a section.
+const ROUND: &str =
+    "# plane = \"axisymmetric\"   # the mesh has a side on x = 0: write this if the bodies are turned about that line\n";
 
 /// What the case will say.
 pub struct Draft<'a> {
@@ -60,7 +64,8 @@ impl Draft<'_> {
             let [first, second] = &pair.between;
             format!("the contact of \"{first}\" and \"{second}\" is left out: {why}")
         };
-        self.guesses.unnamed.iter().map(close).chain(self.guesses.refused.iter().map(left_out)).chain(self.no_load()).collect()
+        let Guesses { unnamed, refused, aside, .. } = &self.guesses;
+        unnamed.iter().map(close).chain(refused.iter().map(left_out)).chain(aside.iter().cloned()).chain(self.no_load()).collect()
     }
 
     /// Words for a load that is left out with the contact that would carry it.
@@ -81,12 +86,13 @@ impl Draft<'_> {
 # Units are your own, consistent ones: with mm and N, stresses are in MPa, and forces in N for each mm of thickness.
 title = {}
 units = {{ length = \"mm\", force = \"N\" }}   # names alone: they change no number
-
+{}
 [mesh]
 file = {}          # found from the folder of this file
 order = 2
 ",
             quoted(&title),
+            if self.guesses.may_be_round() { ROUND } else { "" },
             quoted(named),
         );
         let accuracy = match self.guesses.pairs.is_empty() && self.guesses.tools.is_empty() {
@@ -152,6 +158,9 @@ order = 2
     /// The rigid tools that are drawn in the mesh. What may press on a body that is alone without them: one above the boundary that is
     /// pressed, as a comment.
     fn tools(&self, text: &mut String) {
+        for words in &self.guesses.aside {
+            let _ = write!(text, "\n# Left out: {words}\n");
+        }
         if !self.guesses.tools.is_empty() {
             *text += "\n# Curves of the mesh that bound no body are taken for rigid tools.\n";
             let tables: Vec<&str> = self.guesses.tools.iter().map(|tool| tool.text.as_str()).collect();
@@ -169,11 +178,12 @@ order = 2
 # [rigid.tool]
 # line = [[{left:?}, {high:?}], [{right:?}, {high:?}]]   # or circle = {{ centre = [x, y], radius = r }}
 # ux = 0.0
-# uy = -0.01                # example: how far it is moved; or force = [0.0, -1.0]
+# uy = {:?}                # example: how far it is moved; or force = [0.0, -1.0]
 # angle = 0.0
 # [contact.tool]
 # between = [{}, \"rigid.tool\"]
 ",
+            -self.guesses.tool_way(),
             quoted(curve.name)
         );
     }
@@ -243,11 +253,11 @@ order = 2
         let mut tables = TableNames::default();
         let _ = write!(text, "\n[load.{}]          # {what}: {why}\non = {}\n", tables.fresh(curve.name), quoted(curve.name));
         if press == Press::Pressure {
-            let pressure = sense * PRESSED * YOUNG;
+            let pressure = sense * self.guesses.pressure(curve);
             let _ = writeln!(text, "pressure = {pressure:?}       # example: pushes onto the body if it is positive");
             return;
         }
-        let [x, y] = (sense * self.guesses.force() * direction).map(|part| if part == 0.0 { 0.0 } else { part }).into();
+        let [x, y] = (sense * self.guesses.force(curve) * direction).map(|part| if part == 0.0 { 0.0 } else { part }).into();
         let _ = write!(
             text,
             "rigid = true              # a stiff plate that is bonded to it carries the force; or leave these lines, and give pressure = ...
@@ -278,6 +288,27 @@ angle = 0.0               # and does not turn
             line("bottom", "what is held");
             line("top", "what is pressed, on another body");
         }
+    }
+
+    /// The supports that are proposed for what nothing else holds; those of bodies whose contacts are left out are comments. Returns
+    /// words for such bodies.
+    pub fn proposed_supports(&self, text: &mut String, supports: &[String]) -> Option<String> {
+        let cut_off = (0..self.names.len()).filter(|&body| self.guesses.is_cut_off(body));
+        let cut_off: Vec<String> = cut_off.map(|body| quoted(&self.guesses.mesh.bodies[body])).collect();
+        let body_of = |table: &str| cut_off.iter().find(|body| table.contains(&format!("body = {body}")));
+        let (unheld, others): (Vec<&String>, Vec<&String>) = supports.iter().partition(|table| body_of(table).is_some());
+        if !others.is_empty() {
+            *text += "\n# Nothing else holds these motions; put what you mean in their place.\n";
+            *text += &others.iter().map(|table| table.as_str()).collect::<Vec<_>>().join("\n");
+        }
+        for table in &unheld {
+            let body = body_of(table)?;
+            let _ = write!(text, "\n# Body {body} has neither contact nor support. This would hold it:\n");
+            table.lines().for_each(|line| *text += &format!("# {line}\n"));
+        }
+        let body = body_of(unheld.first()?)?;
+        let remedy = "mend the contact that is left out, or hold the body: the last lines tell how";
+        Some(format!("body {body} has neither contact nor support; {remedy}"))
     }
 
     /// All named boundaries, for whoever goes on writing.

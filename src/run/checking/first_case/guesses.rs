@@ -4,15 +4,16 @@ use super::named_curve::{ALONG, LOADED, MIRRORED, NamedCurve, PULLED};
 use crate::contact::{ClosePair, close_pairs};
 use crate::geometry::{Point, cross};
 use crate::mesh::{Boundary, MacroMesh};
-use crate::run::checking::tools::{ProposedTool, proposed_tools};
+use crate::run::checking::tools::{PRESSED as MOVED, ProposedTool, ProposedTools};
 use std::cmp::Ordering;
 
 /// Young's modulus and Poisson's ratio of the example: steel, in MPa.
 pub const YOUNG: f64 = 210e3;
 pub const POISSON: f64 = 0.3;
 
-/// The example presses with this share of Young's modulus over the width of the narrowest body.
-pub const PRESSED: f64 = 1e-3;
+/// The example presses with this share of Young's modulus over the width of the narrowest body, or of what is pressed if that is less:
+/// the nominal strain. Where a round body of that width touches, Hertz has 0.6 times its root, 0.6 % of the modulus.
+const PRESSED: f64 = 1e-4;
 
 /// Bodies whose outlines are nearer than this share of the smaller one may be meant to touch.
 const NEAR: f64 = 0.1;
@@ -22,6 +23,9 @@ const ACROSS: f64 = 1e-6;
 
 /// Heights that differ by less than this share of a body's are the same.
 const LEVEL: f64 = 1e-6;
+
+/// Coordinates below this share of the width of a mesh are 0.
+const ROUNDING: f64 = 1e-9;
 
 /// Bodies that reach into each other by more than this share of the smaller one are meant to.
 const DRAWN: f64 = 1e-6;
@@ -57,7 +61,9 @@ pub struct Guesses<'a> {
     pub pairs: Vec<ClosePair>,
     /// Rigid tools that curves without triangles may be.
     pub tools: Vec<ProposedTool>,
-    /// Those of them that no contact can be made of as they are drawn, and why.
+    /// Words for each of these curves that no tool can be made of.
+    pub aside: Vec<String>,
+    /// Pairs that no contact can be made of as they are drawn, and why.
     pub refused: Vec<(ClosePair, String)>,
     /// Bodies that lie close, though no named boundaries of theirs do.
     pub unnamed: Vec<[usize; 2]>,
@@ -66,18 +72,26 @@ pub struct Guesses<'a> {
 impl<'a> Guesses<'a> {
     pub fn new(mesh: &'a MacroMesh) -> Self {
         let pairs = close_pairs(mesh, &[]);
-        let tools = proposed_tools(mesh, &[], &[]);
+        let ProposedTools { tools, aside } = ProposedTools::of(mesh, &[], &[]);
         let mut curves: Vec<_> = mesh.boundaries.iter().filter_map(|boundary| NamedCurve::new(mesh, boundary, &pairs)).collect();
-        curves.iter_mut().for_each(|curve| curve.is_touched |= tools.iter().any(|tool| tool.boundary == curve.name));
+        curves.iter_mut().for_each(|curve| curve.is_touched |= tools.iter().any(|tool| tool.between[0] == curve.name));
         let is_known = |bodies: &[usize; 2]| pairs.iter().any(|pair| pair.bodies == *bodies);
         let unnamed = close_outlines(mesh).into_iter().filter(|bodies| !is_known(bodies)).collect();
-        Self { mesh, curves, pairs, tools, refused: Vec::new(), unnamed }
+        Self { mesh, curves, pairs, tools, aside, refused: Vec::new(), unnamed }
     }
 
-    /// Leaves out the pair of these names, in any order; says whether there is one.
+    /// Leaves out the pair or the tool of these names, in any order; says whether there is one.
     pub fn refuse(&mut self, between: &[String; 2], why: &str) -> bool {
-        let is_it = |pair: &ClosePair| pair.between.iter().all(|name| between.contains(name));
-        let found = self.pairs.iter().position(is_it).map(|at| (self.pairs.remove(at), why.to_owned()));
+        let is_it = |sides: &[String; 2]| sides.iter().all(|name| between.contains(name));
+        if let Some(at) = self.tools.iter().position(|tool| is_it(&tool.between)) {
+            let tool = self.tools.remove(at);
+            self.aside.push(tool.set_aside(why));
+            let pairs = self.pairs.iter().chain(self.refused.iter().map(|(pair, _)| pair)).map(|pair| &pair.between);
+            let touched: Vec<&String> = pairs.chain(self.tools.iter().map(|tool| &tool.between)).flatten().collect();
+            self.curves.iter_mut().for_each(|curve| curve.is_touched &= touched.iter().any(|name| *name == curve.name));
+            return true;
+        }
+        let found = self.pairs.iter().position(|pair| is_it(&pair.between)).map(|at| (self.pairs.remove(at), why.to_owned()));
         let is_there = found.is_some();
         self.refused.extend(found);
         is_there
@@ -212,16 +226,38 @@ impl<'a> Guesses<'a> {
         loose
             .map(|body| Weight {
                 body,
-                force: one_digit(self.force() / self.area(body)),
+                force: one_digit(PRESSED * YOUNG * self.narrowest() / self.area(body)),
                 guided: self.unresisted(body, [true, false, true]),
             })
             .collect()
     }
 
-    /// The force of the example, for each length of thickness.
-    pub fn force(&self) -> f64 {
-        let narrowest = self.mesh.bounds().iter().map(|[low, high]| (high - low).min()).fold(f64::INFINITY, f64::min);
-        one_digit(PRESSED * YOUNG * narrowest)
+    /// The force of the example on a boundary, for each length of thickness.
+    pub fn force(&self, curve: &NamedCurve) -> f64 {
+        one_digit(PRESSED * YOUNG * self.narrowest().min(curve.extent()))
+    }
+
+    /// The pressure of the example on a boundary, whose resultant is no larger than that force.
+    pub fn pressure(&self, curve: &NamedCurve) -> f64 {
+        one_digit(PRESSED * YOUNG * (self.narrowest() / curve.extent()).min(1.0))
+    }
+
+    /// Width of the narrowest body.
+    fn narrowest(&self) -> f64 {
+        self.mesh.bounds().iter().map(|[low, high]| (high - low).min()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// How far the example moves a tool.
+    pub fn tool_way(&self) -> f64 {
+        one_digit(MOVED * self.narrowest())
+    }
+
+    /// Whether the mesh may be half a section of bodies of revolution: it has a side on x = 0, and nothing lies beyond.
+    pub fn may_be_round(&self) -> bool {
+        let (bounds, mesh) = (self.mesh.bounds(), self.mesh);
+        let on_axis = ROUNDING * bounds.iter().map(|[_, high]| high.x).fold(0.0, f64::max);
+        let lies_there = |&vertex: &u32| mesh.vertices[vertex as usize].x.abs() <= on_axis;
+        bounds.iter().all(|[low, _]| low.x >= -on_axis) && mesh.edges.iter().any(|edge| edge.vertices.iter().all(lies_there))
     }
 
     /// How low and how high a body reaches.

@@ -10,7 +10,7 @@ mod named_curve;
 use crate::case::{Case, CaseError};
 use crate::mesh::{parse_joined, read_bytes, touching_surfaces};
 use crate::run::checking::check::check;
-use crate::run::checking::proposals::{TableNames, measure, proposed_supports, quoted, refused_contact};
+use crate::run::checking::proposals::{TableNames, measure, proposed_supports, quoted, refused_contacts};
 use crate::run::outcome::RunError;
 use draft::Draft;
 use guesses::{Guesses, Press};
@@ -47,57 +47,40 @@ pub fn first_case(mesh_file: &Path, named: &str) -> Result<FirstCase, RunError> 
     let mut failed = None;
     for press in [Press::Plate, Press::Pressure, Press::Nothing] {
         loop {
-            let (text, refusal) = with_supports(draft.text(named, press), parse);
-            let Some(Refusal { words, contact }) = refusal else { return Ok(FirstCase { text, remarks: draft.remarks() }) };
-            if !contact.is_some_and(|(between, why)| draft.guesses.refuse(&between, &why)) {
-                failed.get_or_insert((text, words));
+            let text = draft.text(named, press);
+            let supports = parse(&text).map(|case| proposed_supports(&case)).unwrap_or_default();
+            let case = parse(&format!("{text}\n{}", supports.join("\n")));
+            let Some(words) = refusal(&case) else { return Ok(finished(&draft, text, &supports, None)) };
+            let refused = case.map_or_else(|_| Vec::new(), |case| refused_contacts(&case));
+            if refused.iter().filter(|(between, why)| draft.guesses.refuse(between, why)).count() == 0 {
+                failed.get_or_insert((text, supports, words));
                 break;
             }
         }
     }
-    let (text, words) = failed.expect("all have failed");
+    let (text, supports, words) = failed.expect("all have failed");
     let file_prefix = format!("{}: ", file.display());
-    let words: String = words.lines().map(|line| format!("#   {}\n", line.trim_start_matches(&file_prefix))).collect();
+    let words = words.lines().map(|line| line.trim_start_matches(&file_prefix)).collect::<Vec<_>>().join("\n");
+    Ok(finished(&draft, text, &supports, Some(words)))
+}
+
+/// A draft with the supports that it wants, and at its top why it does not pass, if so.
+fn finished(draft: &Draft, mut text: String, supports: &[String], words: Option<String>) -> FirstCase {
+    let unheld = draft.proposed_supports(&mut text, supports);
     let mut remarks = draft.remarks();
-    remarks.push("the case does not pass `mezha check` yet; its first lines say why".into());
+    let Some(words) = words.or(unheld) else { return FirstCase { text, remarks } };
+    remarks.push(format!("the case does not pass `mezha check` yet: {}", words.lines().next().unwrap_or_default()));
+    let words: String = words.lines().map(|line| format!("#   {line}\n")).collect();
     let (schema, rest) = text.split_once("\n\n").unwrap_or(("", &text));
-    let text = format!("{schema}\n\n# This case does not pass `mezha check` yet, which says:\n{words}\n{rest}");
-    Ok(FirstCase { text, remarks })
+    FirstCase { text: format!("{schema}\n\n# This case does not pass `mezha check` yet:\n{words}\n{rest}"), remarks }
 }
 
-/// What `check` says against a draft.
-struct Refusal {
-    words: String,
-    /// The boundaries of the contact that is refused, and why, if it is a contact.
-    contact: Option<([String; 2], String)>,
-}
-
-impl Refusal {
-    fn new(words: String, case: Option<&Case>) -> Self {
-        let contact = case.and_then(|case| refused_contact(&words, case));
-        Self { words, contact }
+/// What `check` says against a case.
+fn refusal(case: &Result<Case, CaseError>) -> Option<String> {
+    match case {
+        Ok(case) => check(case).map_or_else(|error| Some(error.to_string()), |checked| checked.not_held),
+        Err(error) => Some(error.to_string()),
     }
-}
-
-/// A draft with supports for what it does not hold, and what `check` says if it does not pass it then.
-fn with_supports(mut text: String, parse: impl Fn(&str) -> Result<Case, CaseError>) -> (String, Option<Refusal>) {
-    let case = match parse(&text) {
-        Ok(case) => case,
-        Err(error) => return (text, Some(Refusal::new(error.to_string(), None))),
-    };
-    let supports = proposed_supports(&case);
-    if !supports.is_empty() {
-        text += "\n# Nothing else holds these motions; put what you mean in their place.\n";
-        text += &supports.join("\n");
-    }
-    let refusal = match parse(&text) {
-        Ok(case) => match check(&case) {
-            Ok(checked) => checked.not_held.map(|words| Refusal::new(words, None)),
-            Err(error) => Some(Refusal::new(error.to_string(), Some(&case))),
-        },
-        Err(error) => Some(Refusal::new(error.to_string(), None)),
-    };
-    (text, refusal)
 }
 
 /// The path of a mesh file from the folder of a case, or its name alone where that folder is not known: the case then goes

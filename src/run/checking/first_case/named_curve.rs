@@ -12,8 +12,8 @@ pub const LOADED: &str = "top load loaded press pressed pressure force punch pus
 pub const PULLED: &str = "pull pulled tension drag lift traction";
 pub const MIRRORED: &str = "symmetry sym symm mirror";
 
-/// Last words in names of holes that are held. Before other words they name the body: `hub.outside` is free.
-const BORES: [&str; 5] = ["bore", "axle", "axis", "hub", "shaft"];
+/// Last words in names of what sits on or in something that holds it. Before other words they name the body: `hub.outside` is free.
+const SEATS: [&str; 10] = ["bore", "axle", "axis", "hub", "shaft", "housing", "case", "frame", "carrier", "block"];
 
 /// Words of so many letters at least are known at the beginning and at the end of a longer one, too: `clampleft`, `leftclamp`.
 const LONG: usize = 5;
@@ -63,6 +63,11 @@ impl<'a> NamedCurve<'a> {
         })
     }
 
+    /// How far it reaches: the diagonal of its box (length).
+    pub fn extent(&self) -> f64 {
+        (self.high - self.low).norm()
+    }
+
     /// Whether its name has one of some words, in any case, with a number behind it or not.
     pub fn has(&self, words: &str) -> bool {
         let is_known =
@@ -72,7 +77,7 @@ impl<'a> NamedCurve<'a> {
 
     /// Whether its name says that it is held.
     pub fn is_held(&self) -> bool {
-        self.has(HELD) || self.words().last().is_some_and(|last| BORES.contains(&last.as_str()))
+        self.has(HELD) || self.words().last().is_some_and(|last| SEATS.contains(&last.as_str()))
     }
 
     /// The words of its name, in small letters and without numbers: `Seal.gripLeft2` has three.
@@ -96,12 +101,22 @@ mod tests {
 
     #[test]
     fn words_are_known_in_any_case_and_with_others_around_them() {
-        for name in
-            ["root", "Lever.Root", "gripLeft", "GRIP_2", "clampleft", "leftclamp", "wheel axle", "hub", "gear.bore1", "base-3"]
-        {
+        for name in [
+            "root",
+            "Lever.Root",
+            "gripLeft",
+            "GRIP_2",
+            "clampleft",
+            "leftclamp",
+            "wheel axle",
+            "hub",
+            "gear.bore1",
+            "base-3",
+            "seal.housing",
+        ] {
             assert!(named(name).is_held(), "{name}");
         }
-        for name in ["hub.outside", "basalt", "seam", "routed", "axle.left flank"] {
+        for name in ["hub.outside", "block.top left", "basalt", "seam", "routed", "axle.left flank"] {
             assert!(!named(name).is_held(), "{name}");
         }
         assert!(named("bolt.pull").has(PULLED) && named("PullRight").has(LOADED) && !named("pulley").has(LOADED));
