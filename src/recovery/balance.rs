@@ -43,9 +43,9 @@ pub struct Balance {
     pub motions: Vec<Motion>,
     /// Sum of the magnitudes of all forces on bodies: loads and reactions of their nodes, contact (per thickness).
     pub forces: f64,
-    /// Largest `|F₁ + F₂| / |F₂|`; along a curve, where `F₂` may vanish, by `∫λ ds`.
+    /// Largest `|F₁ + F₂| / |F₂|`; along a curve, where `F₂` may vanish, by `∫λ ds` if that is larger.
     pub force: Option<f64>,
-    /// Largest `|M₁ + M₂| / (|F₂| length)`, about the middle of Γ_C; nothing in bodies of revolution, which cannot turn.
+    /// Largest `|M₁ + M₂|` by the same force and the length of Γ_C, about the middle of Γ_C; nothing in bodies of revolution, which cannot turn.
     pub moment: Option<f64>,
     /// `|2U + 2S - (f·u + r·u_D - λᵀc - λᵀCλ)|`, `S` being the energy in springs, over the largest of the terms.
     pub energy: Option<f64>,

@@ -1,7 +1,7 @@
 //! Contact that goes on beyond the end of its boundary, where no body ends and nothing takes over.
 //!
 //! Of the roller of a chain that lies in its seat and beside it on the flank, with a contact in the seat alone, λ was 6 to 20 % off a
-//! few edges from the end of the seat. Arcs of circles that are given as such are not looked at.
+//! few edges from the end of the seat.
 
 use super::zone_ends::{SAME, beyond, outwards};
 use crate::contact::{Law, Zone};
@@ -50,7 +50,7 @@ fn goes_on(contact: &Contact, mesh: &MacroMesh, end: usize) -> bool {
 
 /// Whether a body goes on smoothly where its boundary ends.
 fn is_smooth(contact: &Contact, mesh: &MacroMesh, side: usize, end: usize) -> bool {
-    let last = outwards(contact, mesh, side, end).max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(vertex, _)| vertex);
+    let last = outwards(contact, mesh, side, end).into_iter().max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(vertex, _)| vertex);
     let around = mesh.boundary_vertices();
     around.iter().any(|found| Some(found.vertex) == last && (-OPENS..SMOOTH).contains(&(found.angle - PI)))
 }

@@ -36,9 +36,9 @@ type TriangleIntegrals = [f64; 4];
 /// Integrals over a body: of 1, of the rotation, of the work on its growth, of the place.
 type BodyIntegrals = [f64; 5];
 
-/// Strain, rotation and growth of each body, and the rotation of each macro triangle. Strains and rotations of these are means over one;
-/// where they are hardly refined, over it and its neighbours. So a corner where the strain is singular counts by what its surroundings
-/// see, on fine meshes as on coarse ones. **Collective**
+/// Strain, rotation and growth of each body, and the rotation of each macro triangle of the mesh, the same on all ranks. Strain and
+/// rotation of a macro triangle are means over it, and where triangles are hardly refined over it and its neighbours. So a corner where
+/// the strain is singular counts by what its surroundings see, on fine meshes as on coarse ones. **Collective**
 ///
 /// # Errors
 /// [`SystemError`] from an inverted triangle.

@@ -46,7 +46,7 @@ impl SlidEnd {
     }
 }
 
-/// What sliding does at both ends of a contact with these `zones` (arc lengths, in order) and this `force` (per thickness), one of
+/// What sliding does at both ends of a contact with these `zones` (arc lengths, in order) and this `force` (per thickness, or of the whole ring), one of
 /// `all` contacts; nothing where nothing presses.
 pub fn slip_at_ends(
     (contact, all): (&Contact, &[Contact]),
@@ -67,7 +67,8 @@ pub fn slip_at_ends(
         }
         let mut complete = points.iter().filter(|point| point.is_complete());
         let last = if end == 0 { complete.next()? } else { complete.next_back()? };
-        let passing = if is_taken_over(contact, end, all) { 0.5 * last.slip.abs() * last.lambda } else { 0.0 };
+        let width = contact.boundary.width(contact.boundary.ends()[end]);
+        let passing = if is_taken_over(contact, end, all) { 0.5 * last.slip.abs() * last.lambda * width } else { 0.0 };
         Some(SlidEnd { outwards: [-last.slip, last.slip][end], beyond, passing })
     };
     let ends: Vec<SlidEnd> = [0, 1].into_iter().filter_map(of_end).collect();
@@ -77,7 +78,9 @@ pub fn slip_at_ends(
         both => both.iter().map(SlidEnd::farther).sum::<f64>().abs(),
     };
     let passing = ends.iter().map(|end| end.passing).fold(0.0, f64::max) / force;
-    let way = ends.iter().map(|end| end.outwards.abs()).fold(0.0, f64::max);
+    // Along a circle that is given as such nothing lies elsewhere after sliding.
+    let is_circle = contact.boundary.period().is_some();
+    let way = if is_circle { 0.0 } else { ends.iter().map(|end| end.outwards.abs()).fold(0.0, f64::max) };
     Some(EndSlip { way: way / pressed, lost: (lost / pressed).max(passing) })
 }
 

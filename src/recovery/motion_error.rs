@@ -92,6 +92,7 @@ fn one(
     sides: Option<[&SmoothSide; 2]>,
     session: &Session,
 ) -> Option<MotionError> {
+    // A body that is bent turns by less than its mean where it presses, or the other way: no more counts than both tell.
     let turns = [0, 1].map(|side| {
         let body = &bodies[contact.bodies[side]];
         let is_tool = problem.scene.tool(contact.bodies[side]).is_some();

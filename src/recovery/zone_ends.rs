@@ -113,21 +113,31 @@ impl ContactPressure<'_> {
 /// How far the boundary of each body goes on beyond an end of Γ_C, by the length of Γ_C.
 pub fn beyond(contact: &Contact, mesh: &MacroMesh, end: usize) -> [f64; 2] {
     let [first, last] = contact.boundary.ends();
-    let farthest = |side| outwards(contact, mesh, side, end).map(|(_, way)| way).fold(f64::NEG_INFINITY, f64::max);
+    let farthest = |side| outwards(contact, mesh, side, end).into_iter().map(|(_, way)| way).fold(f64::NEG_INFINITY, f64::max);
     [0, 1].map(|side| farthest(side) / (last - first) - 0.5)
 }
 
-/// The vertices of a side, and how far towards an end the foot of each lies from the middle of Γ_C (in its parameter). Round a closed
-/// curve a foot lies on the nearer way.
-pub fn outwards(contact: &Contact, mesh: &MacroMesh, side: usize, end: usize) -> impl Iterator<Item = (u32, f64)> {
+/// The vertices of a side, and how far towards an end the foot of each lies from the middle of Γ_C (in its parameter). A closed curve is
+/// cut opposite to that middle, or, where the side ends, in its widest opening.
+pub fn outwards(contact: &Contact, mesh: &MacroMesh, side: usize, end: usize) -> Vec<(u32, f64)> {
     let boundary = &contact.boundary;
-    let ([first, last], period) = (boundary.ends(), boundary.period());
+    let [first, last] = boundary.ends();
     let vertices = mesh.edges_of(&contact.pair.between[side]).iter().flat_map(|&edge| mesh.edges[edge as usize].vertices);
-    vertices.map(move |vertex| {
-        let way = boundary.foot(mesh.vertices[vertex as usize]) - 0.5 * (first + last);
-        let way = way - period.map_or(0.0, |period| (way / period).round() * period);
-        (vertex, [-way, way][end])
-    })
+    let way = |vertex: u32| boundary.foot(mesh.vertices[vertex as usize]) - 0.5 * (first + last);
+    let mut ways: Vec<(u32, f64)> = vertices.map(|vertex| (vertex, way(vertex))).collect();
+    if let Some(period) = boundary.period() {
+        ways.iter_mut().for_each(|(_, way)| *way = way.rem_euclid(period));
+        ways.sort_by(|a, b| a.0.cmp(&b.0));
+        let is_closed = ways.chunk_by(|a, b| a.0 == b.0).all(|alike| alike.len() > 1);
+        ways.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let gap = |pair: &&[(u32, f64)]| pair[1].1 - pair[0].1;
+        let widest = ways.windows(2).max_by(|a, b| gap(a).total_cmp(&gap(b)));
+        let middle = |pair: &[(u32, f64)]| 0.5 * (pair[0].1 + pair[1].1);
+        let cut = widest.filter(|_| !is_closed).map_or(0.5 * period, middle);
+        ways.iter_mut().filter(|(_, way)| *way > cut).for_each(|(_, way)| *way -= period);
+    }
+    ways.iter_mut().for_each(|(_, way)| *way = [-*way, *way][end]);
+    ways
 }
 
 #[cfg(test)]

@@ -5,7 +5,6 @@ use crate::contact::{GapChoice, Known, Pair, declared_gap};
 use crate::discretisation::contacts::contact::{Contact, not_facing};
 use crate::discretisation::contacts::coupling::coupled_here;
 use crate::discretisation::error::SystemError;
-use crate::discretisation::levels::finest_numbering;
 use crate::discretisation::scene::Scene;
 use crate::geometry::Point;
 use crate::mesh::{Level, Numbering};
@@ -38,14 +37,10 @@ pub fn check_soundness(scene: &Scene, numbering: &Numbering, contacts: &[Contact
 
 /// All contacts of a scene on one rank that cannot be made as they are drawn: the names of each, and why. Of two that claim one place
 /// it is the later one.
-///
-/// # Errors
-/// [`SystemError::Case`] if the mesh is too fine.
-pub fn refused_contacts(scene: &Scene) -> Result<Vec<(&Pair, String)>, SystemError> {
-    let numbering = finest_numbering(scene)?;
+pub fn refused_contacts<'a>(scene: &'a Scene, numbering: &Numbering) -> Vec<(&'a Pair, String)> {
     let (mut placed, mut refused) = (Vec::new(), Vec::new());
     let place = |pair: &Pair| {
-        let contact = Contact::new(scene, &numbering, 0, pair, 0, &Known::default(), &|_| Point::zeros())?;
+        let contact = Contact::new(scene, numbering, 0, pair, 0, &Known::default(), &|_| Point::zeros())?;
         coupled_here(std::slice::from_ref(&contact)).map(|_| contact)
     };
     for pair in &scene.pairs {
@@ -58,8 +53,8 @@ pub fn refused_contacts(scene: &Scene) -> Result<Vec<(&Pair, String)>, SystemErr
         }
     }
     let (pairs, placed): (Vec<&Pair>, Vec<Contact>) = placed.into_iter().unzip();
-    refused.extend(not_facing(scene, &numbering, &placed).into_iter().map(|(at, why)| (pairs[at], why)));
-    Ok(refused)
+    refused.extend(not_facing(scene, numbering, &placed).into_iter().map(|(at, why)| (pairs[at], why)));
+    refused
 }
 
 /// The finest level of the scene's elements that has no more triangles in so many macro triangles than are looked at.
@@ -73,6 +68,7 @@ fn looked_at(scene: &Scene, count: usize) -> Level {
 mod tests {
     use super::*;
     use crate::contact::MultiplierSpace;
+    use crate::discretisation::finest_numbering;
     use crate::discretisation::samples::{blocks, pair};
     use crate::geometry::Formula;
 
@@ -88,7 +84,8 @@ mod tests {
         let mut scene = blocks(named("good", seam), |_| Point::zeros(), Vec::new());
         let gap = GapChoice::Formula(Formula::parse("1/(x-x)", &["x", "y"]).expect("a formula"));
         scene.pairs.extend([named("back", ["bottom", "upper.seam"]), Pair { gap, ..named("a.b", seam) }, named("twice", seam)]);
-        let refused = refused_contacts(&scene).expect("a small mesh");
+        let numbering = finest_numbering(&scene).expect("a small mesh");
+        let refused = refused_contacts(&scene, &numbering);
         for (name, why) in [("back", "do not face each other"), ("a.b", "gap: "), ("twice", "one place of a boundary")] {
             let own = refused.iter().find(|(pair, _)| pair.name == name).map(|(_, why)| why.as_str());
             assert!(own.is_some_and(|words| words.contains(why) && !words.contains("contact.a")), "{name}: {refused:?}");

@@ -3,7 +3,7 @@
 //! A sweep through many rows waits for memory. The stiffness is symmetric, so the couplings of each row with later nodes are read
 //! alone: forward they take from these nodes, too, what the new value of the row does there, and what a symmetric sweep's forward half
 //! has found of earlier nodes stays for the backward half, and for the residual behind it. They are kept once more in single precision:
-//! of five times all blocks that two sweeps and a residual read (36 bytes each, with the column) two are left (20 bytes each).
+//! of five times all blocks that two sweeps and a residual read (36 bytes each, with the column) two and a half are left (20 bytes each).
 //! Functions of auxiliary levels may be nearly multiples of each other, so that energies are small differences: these levels are read in
 //! double precision.
 //!

@@ -184,10 +184,10 @@ pub fn points(page: &ReportPage) -> String {
     let heads = lengths.iter().chain(&stresses).map(String::as_str);
     let probes = table(&std::iter::once("point").chain(heads).collect::<Vec<_>>(), &rows);
     let row = |(name, strain): (&String, &Option<f64>)| {
-        vec![name.clone(), number(*strain), number(summary.rotation.get(name).copied().flatten())]
+        vec![name.clone(), number(*strain), number(summary.rotation_max.get(name).copied().flatten())]
     };
     let rows: Vec<Vec<String>> = summary.strain_max.iter().map(row).collect();
-    let bodies = long_table(&["body", "largest strain", "mean rotation (radians)"], rows, "summary.json");
+    let bodies = long_table(&["body", "largest strain", "largest rotation (radians)"], rows, "summary.json");
     let unit = summary.units.length().after();
     let largest =
         summary.displacement_max.map(|u| paragraph(&format!("The largest displacement of a node is {}{unit}.", number_text(u))));

@@ -45,7 +45,7 @@ pub struct Summary {
     pub reason: Option<String>,
     /// Number of ranks.
     pub ranks: usize,
-    /// What made the result, and of what; null in results of older versions.
+    /// What made the result, and of what.
     pub provenance: Option<Provenance>,
     /// Names of all files of the result, relative to its folder, sorted: a run that replaces it removes these and no others.
     pub files: Vec<String>,

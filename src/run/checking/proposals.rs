@@ -149,7 +149,8 @@ pub(crate) fn refused_contacts(case: &Case) -> Vec<([String; 2], String)> {
     case.plates.clear();
     let mesh = scene::read_mesh_file(&case).and_then(|bytes| scene::read_mesh(&case, &bytes));
     let Some(scene) = mesh.ok().and_then(|mesh| scene::first(&case, mesh).ok()) else { return Vec::new() };
-    let refused = discretisation::refused_contacts(&scene).unwrap_or_default();
+    let Ok(numbering) = discretisation::finest_numbering(&scene) else { return Vec::new() };
+    let refused = discretisation::refused_contacts(&scene, &numbering);
     refused.into_iter().map(|(pair, why)| (pair.between.clone(), why)).collect()
 }
 
