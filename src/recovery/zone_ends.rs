@@ -127,7 +127,7 @@ pub fn outwards(contact: &Contact, mesh: &MacroMesh, side: usize, end: usize) ->
     let mut ways: Vec<(u32, f64)> = vertices.map(|vertex| (vertex, way(vertex))).collect();
     if let Some(period) = boundary.period() {
         ways.iter_mut().for_each(|(_, way)| *way = way.rem_euclid(period));
-        ways.sort_by(|a, b| a.0.cmp(&b.0));
+        ways.sort_by_key(|(vertex, _)| *vertex);
         let is_closed = ways.chunk_by(|a, b| a.0 == b.0).all(|alike| alike.len() > 1);
         ways.sort_by(|a, b| a.1.total_cmp(&b.1));
         let gap = |pair: &&[(u32, f64)]| pair[1].1 - pair[0].1;
