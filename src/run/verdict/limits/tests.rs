@@ -109,7 +109,7 @@ fn the_documents_say_the_limits_of_the_program() {
         (
             LIMITS,
             format!(
-                "Above {small} strain mezha warns; above {strain}, or where a body turns by more than {} radians",
+                "Above {small} strain mezha warns; above {strain}, or where a triangle of the mesh file turns by more than {} radians",
                 ROTATION.value
             ),
         ),
