@@ -92,13 +92,11 @@ fn one(
     sides: Option<[&SmoothSide; 2]>,
     session: &Session,
 ) -> Option<MotionError> {
-    // A body that is bent turns by less than its mean where it presses, or the other way: no more counts than both tell.
     let turns = [0, 1].map(|side| {
         let body = &bodies[contact.bodies[side]];
         let is_tool = problem.scene.tool(contact.bodies[side]).is_some();
         let here = if is_tool { body.rotation } else { turn_at(&problem.scene.mesh, &solution.pressure(contact), side, turns) };
-        let angle = if here * body.rotation > 0.0 { here.abs().min(body.rotation.abs()) } else { 0.0 };
-        Turn { angle: angle.copysign(body.rotation), middle: body.middle }
+        Turn { angle: counted(here, body.rotation), middle: body.middle }
     });
     let found = finite_motion(sides, turns, &contact.boundary, &contact.multipliers, &solution.multipliers[contact.range()]);
     let energy: f64 = contact.bodies.iter().map(|&body| energy[body]).sum();
@@ -125,7 +123,13 @@ fn one(
     })
 }
 
-/// By how much a body turns where it presses: the largest rotation of the macro triangles beside the ends and the centre of what presses.
+/// The turn of a body that counts in a contact (radians), by that beside it and the mean of the body: the smaller one, and none where a
+/// bent body turns there against its mean. The error that is told is so never larger than by the mean alone.
+fn counted(here: f64, mean: f64) -> f64 {
+    if here * mean > 0.0 { here.abs().min(mean.abs()).copysign(mean) } else { 0.0 }
+}
+
+/// By how much a body turns where it presses (radians): the largest rotation of the macro triangles beside the ends and the centre of what presses.
 /// A half of a strip that is bent turns in the mean, and not where it is cut in two; so whole and half are judged alike.
 fn turn_at(mesh: &MacroMesh, pressure: &ContactPressure, side: usize, turns: &[f64]) -> f64 {
     let (zones, boundary) = (pressure.zones(), &pressure.contact.boundary);
@@ -195,6 +199,8 @@ pub fn growth_by_gap(bodies: [&Deformation; 2], points: &[TracePoint], farthest:
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::{Known, MultiplierSpace};
+    use crate::discretisation::samples::{blocks, contact, pair};
 
     #[test]
     fn bodies_that_turn_grow_by_half_the_square_of_the_angle() {
@@ -212,5 +218,24 @@ mod tests {
         assert!((found / (1.5 * (0.01f64.powi(2) + 0.02f64.powi(2)) / 0.01) - 1.0).abs() < 1e-12, "{found}");
         assert_eq!(growth_by_gap([&turned(1e-6), &turned(0.0)], &points, 0.1), None, "rounding beside the displacements");
         assert_eq!(growth_by_gap([&turned(0.1), &turned(0.0)], &[], 0.1), None, "no gap");
+    }
+
+    #[test]
+    fn a_contact_turns_by_what_turns_beside_it() {
+        assert_eq!(
+            [(0.01, 0.5), (-0.7, -0.5), (-0.01, 0.5), (0.0, 0.5)].map(|(here, mean)| counted(here, mean)),
+            [0.01, -0.5, 0.0, 0.0]
+        );
+        let scene = blocks(pair(MultiplierSpace::P0, 8), |_| Point::zeros(), Vec::new());
+        let contact = contact(&scene, Known::default());
+        let pressure = ContactPressure { contact: &contact, values: &[1.0; 8], active: &[true; 8] };
+        let mut turns = vec![0.5; scene.mesh.triangles.len()];
+        for (side, turn) in [(0, 0.01), (1, -0.02)] {
+            for &edge in scene.mesh.edges_of(&contact.pair.between[side]) {
+                let beside = scene.mesh.edges[edge as usize].triangles.iter().flatten().next().expect("a triangle");
+                turns[*beside as usize] = turn;
+            }
+            assert_eq!(turn_at(&scene.mesh, &pressure, side, &turns), turn);
+        }
     }
 }
