@@ -152,7 +152,7 @@ impl Procedure<'_> {
         let smallest = |zone: &Zone| {
             let middle =
                 zone.segments.clone().filter(|&k| zone.has_in_its_middle(0.5 * boundary.segment_arcs(k).iter().sum::<f64>()));
-            let least = middle.map(|k| pressure.value(k, 0.5)).fold(f64::INFINITY, f64::min);
+            let least = middle.map(|k| pressure.size(k, 0.5)).fold(f64::INFINITY, f64::min);
             least / pressure.peak_of(zone)
         };
         let zones = pressure.zones();

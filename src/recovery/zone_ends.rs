@@ -33,7 +33,7 @@ impl ContactPressure<'_> {
             return false;
         }
         let nth = |i: usize| if end == 0 { zone.segments.start + i } else { zone.segments.end - 1 - i };
-        let last = self.value(nth(0), if end == 0 { 0.05 } else { 0.95 });
+        let last = self.size(nth(0), if end == 0 { 0.05 } else { 0.95 });
         let grown = match (before, earlier) {
             (Some(before), Some(earlier)) => {
                 last > GROWS * before && before > earlier && last - before > GOES_ON * (before - earlier)
@@ -46,7 +46,7 @@ impl ContactPressure<'_> {
 
     /// Whether λ grows by more than a factor towards the first of three segments in a row, ever more quickly.
     fn steepens(&self, row: [usize; 3], factor: f64) -> bool {
-        let [a, b, c] = row.map(|k| self.value(k, 0.5));
+        let [a, b, c] = row.map(|k| self.size(k, 0.5));
         let lengths = row.map(|k| self.contact.boundary.segment_length(k));
         let slopes = [(a - b) / (lengths[0] + lengths[1]), (b - c) / (lengths[1] + lengths[2])];
         a > factor * b && slopes[0] > slopes[1]
@@ -56,7 +56,7 @@ impl ContactPressure<'_> {
     /// bound (Bogy 1971), as far as this mesh tells, where it is among the largest of the zone. A smooth pressure, however steep, goes on
     /// rising on the other side.
     pub fn grows_at_joint(&self, zone: &Zone) -> Option<f64> {
-        let height = |k: usize| self.value(k, 0.5);
+        let height = |k: usize| self.size(k, 0.5);
         let goes_on = |near: usize, [next, far]: [usize; 2]| height(near) < height(next) && height(next) < height(far);
         let rows = self.rows_at_joints(zone).into_iter();
         let mut grown = rows.filter(|(_, row, across)| {
@@ -69,7 +69,7 @@ impl ContactPressure<'_> {
     /// without bound on finer meshes.
     pub fn variation_at_joints(&self, zone: &Zone) -> f64 {
         let variation = |(_, row, _): (f64, [usize; 3], Option<[usize; 2]>)| {
-            let [near, next, far] = row.map(|k| self.value(k, 0.5));
+            let [near, next, far] = row.map(|k| self.size(k, 0.5));
             (near - next).abs().max((next - far).abs()).max((near - far).abs())
         };
         self.rows_at_joints(zone).into_iter().map(variation).fold(0.0, f64::max) / self.peak_of(zone)
@@ -96,7 +96,7 @@ impl ContactPressure<'_> {
             })
         };
         let rows = self.contact.joints.iter().flat_map(of_joint);
-        rows.filter(|(_, row, _)| self.value(row[0], 0.5) > least).collect()
+        rows.filter(|(_, row, _)| self.size(row[0], 0.5) > least).collect()
     }
 
     /// Whether a zone reaches an end of Γ_C where one of the bodies has a corner and the other goes on.

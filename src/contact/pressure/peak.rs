@@ -4,11 +4,12 @@ use crate::contact::contact_boundary::ContactBoundary;
 use crate::contact::multiplier::Multipliers;
 use crate::contact::pressure::zones::Zone;
 
-/// The largest value of a smooth pressure on a zone: of the parabola that has the means of λ over the segment where λ is largest
+/// The largest size of a smooth pressure on a zone: of the parabola that has the means of λ over the segment where λ is largest
 /// and the two next to it, on that segment. λ itself leans on the segment at an end of a boundary, and misses the curvature on
 /// all of them. Nothing on fewer than three segments.
 pub fn recovered_peak(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64], zone: &Zone) -> Option<f64> {
-    let highest = |k: usize| multipliers.value(lambda, k, 0.0).max(multipliers.value(lambda, k, 1.0));
+    let size = |k: usize, z: f64| multipliers.value(lambda, k, z).abs();
+    let highest = |k: usize| size(k, 0.0).max(size(k, 1.0));
     let top = zone.segments.clone().max_by(|a, b| highest(*a).total_cmp(&highest(*b)))?;
     let last = zone.segments.end.checked_sub(3).filter(|last| *last >= zone.segments.start)?;
     // Around a closed boundary each segment has one before and one behind it.
@@ -18,7 +19,7 @@ pub fn recovered_peak(boundary: &ContactBoundary, multipliers: &Multipliers, lam
     };
     let near = [first, first + 1, first + 2];
     let intervals = near.map(|k| boundary.segment_arcs(k));
-    let parabola = Parabola::of_means(intervals, near.map(|k| multipliers.value(lambda, k, 0.5)));
+    let parabola = Parabola::of_means(intervals, near.map(|k| size(k, 0.5)));
     Some(parabola.largest(intervals[top - first]))
 }
 

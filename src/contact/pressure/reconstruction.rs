@@ -36,7 +36,7 @@ pub fn roughness(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: 
     let (mut middle, mut inside, mut peak) = ([0.0; 2], [0.0; 2], f64::NEG_INFINITY);
     for (k, z, arc, length) in boundary.gauss_on(zone.segments.clone(), 5) {
         let smooth = interpolate(&samples, arc);
-        peak = peak.max(smooth);
+        peak = peak.max(smooth.abs());
         let here = multipliers.value(lambda, k, z);
         for (sums, counts) in [(&mut middle, zone.has_in_its_middle(arc)), (&mut inside, zone.has_inside(arc))] {
             if counts {

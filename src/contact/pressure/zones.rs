@@ -128,12 +128,12 @@ impl Zone {
         rows.into_iter().map(|i| lambda[i] * multipliers.integral(i)).sum()
     }
 
-    /// Largest pressure (stress).
+    /// Largest size of λ (stress): a zone of a bilateral contact may pull.
     pub fn peak(&self, multipliers: &Multipliers, lambda: &[f64]) -> f64 {
         self.values_at_ends(multipliers, lambda).map(|(value, ..)| value).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Whether the largest pressure lies beside an end of the boundary, be it there alone or elsewhere, too.
+    /// Whether the largest λ, by its size, lies beside an end of the boundary, be it there alone or elsewhere, too.
     pub fn peaks_at_end(&self, boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64]) -> bool {
         let highest = self.peak(multipliers, lambda);
         let is_beside = |arc: f64| (0..2).any(|end| self.is_at_end[end] && (arc - self.arcs[end]).abs() < BESIDE * self.length());
@@ -141,9 +141,9 @@ impl Zone {
         values.any(|(value, segment, end)| value >= highest && is_beside(boundary.segment_arcs(segment)[end]))
     }
 
-    /// Values of λ (stress) at both ends of each segment: value, segment, end.
+    /// Sizes of λ (stress) at both ends of each segment: size, segment, end.
     fn values_at_ends(&self, multipliers: &Multipliers, lambda: &[f64]) -> impl Iterator<Item = (f64, usize, usize)> {
-        self.segments.clone().flat_map(|k| [0, 1].map(|end| (multipliers.value(lambda, k, end as f64), k, end)))
+        self.segments.clone().flat_map(|k| [0, 1].map(|end| (multipliers.value(lambda, k, end as f64).abs(), k, end)))
     }
 }
 

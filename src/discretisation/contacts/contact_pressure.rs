@@ -27,6 +27,11 @@ impl<'a> ContactPressure<'a> {
         self.contact.multipliers.value(self.values, k, z)
     }
 
+    /// The size of λ there: a bilateral contact may pull.
+    pub fn size(&self, k: usize, z: f64) -> f64 {
+        self.value(k, z).abs()
+    }
+
     /// λ at the foot of a point; at a segment end the mean of both values, so that rounding does not choose one of them.
     pub fn at_foot(&self, x: Point) -> f64 {
         let boundary = &self.contact.boundary;
@@ -84,7 +89,7 @@ impl<'a> ContactPressure<'a> {
         zone.force(&self.contact.multipliers, self.values)
     }
 
-    /// The largest λ of one zone.
+    /// The largest size of λ on one zone.
     pub fn peak_of(&self, zone: &Zone) -> f64 {
         zone.peak(&self.contact.multipliers, self.values)
     }

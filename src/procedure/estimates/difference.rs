@@ -89,11 +89,12 @@ impl ContactDifference {
         let (zones, zones_before) = (now.zones(), before.zones());
         let unknown = if zones.is_empty() && zones_before.is_empty() { 0.0 } else { f64::NAN };
         let [peak, peak_before] = [now, before].map(ContactPressure::recovered_peak);
+        let largest = now.values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let of_zone = |zone| ZoneDifference::new(now.contact, now.values, zone, |x| before.at_foot(x));
         Self {
             force: share((now.force() - before.force()).abs(), now.force().abs()),
             peak: peak.zip(peak_before).map_or(unknown, |(now, before)| (before / now - 1.0).abs()),
-            above: peak.map_or(unknown, |peak| (now.largest() / peak - 1.0).abs()),
+            above: peak.map_or(unknown, |peak| (largest / peak - 1.0).abs()),
             ends: way_of_ends(now, before),
             within_segments: ends_within_segments(now, before),
             zones: zones.iter().map(of_zone).collect(),

@@ -49,7 +49,7 @@ pub struct ZoneDifference {
     force: f64,
     /// Of its peak.
     pub peak: f64,
-    /// What λ was at its ends (stress).
+    /// The size that λ had at its ends (stress).
     pub at_ends: [f64; 2],
 }
 
@@ -78,7 +78,7 @@ impl ZoneDifference {
             let there = before(boundary.point(t));
             if zone.reaches(arc) {
                 force += length * boundary.width(t) * there;
-                peak = there.max(peak);
+                peak = there.abs().max(peak);
             }
             let here = contact.multipliers.value(lambda, k, z);
             let counts = [zone.has_in_its_middle(arc), zone.has_inside(arc)];
@@ -97,7 +97,7 @@ impl ZoneDifference {
             force: (force / now - 1.0).abs(),
             peak: (peak / top - 1.0).abs(),
             at_ends: [(zone.segments.start, 0.05), (zone.segments.end - 1, 0.95)]
-                .map(|(k, z)| before(boundary.point(boundary.parameter_on(k, z)))),
+                .map(|(k, z)| before(boundary.point(boundary.parameter_on(k, z))).abs()),
         }
     }
 

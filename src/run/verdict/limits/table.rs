@@ -105,6 +105,10 @@ pub static FORCE: Limit = most((0.08, two, Finer, "the whole force is too inexac
     "estimated error of the whole force {value}, at most {limit} wanted"));
 pub const TRUSTED_FORCE: f64 = 0.01;
 
+/// The same where a zone lies on one or two segments: a disc squeezed by 5 % between rigid plates had two on the mesh before, too, and a
+/// force 2.8e-2 off where 5.5e-3 was estimated. What statics decides is known far better.
+pub const TRUSTED_FORCE_ON_FEW: f64 = TRUSTED_FORCE / 5.0;
+
 /// `corner_error`: corners of a body within what presses, by what they do to λ.
 pub static CORNERS: Limit = most((0.04, short,
     Words("if these are chords of a curve, give it by a [geometry]; if the corners are meant, name the pieces between them, each with a contact of its own"),

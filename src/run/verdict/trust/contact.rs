@@ -3,13 +3,13 @@
 use super::beyond::doubts_beyond;
 use super::remedies::CUT;
 use super::told::{Objection, Verdict};
-use super::zones::{is_proved, overlaps, unknown_of, zone_doubts};
+use super::zones::{is_on_few_segments, is_proved, overlaps, unknown_of, zone_doubts};
 use crate::accuracy::share_of_nothing;
 use crate::case::Case;
 use crate::contact::{Pair, Quadrature};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
-use crate::run::verdict::limits::{CORNERS, Doubt, ENERGY, FORCE, INF_SUP, OSCILLATION, Remedy, TRUSTED_FORCE};
+use crate::run::verdict::limits::{CORNERS, Doubt, ENERGY, FORCE, INF_SUP, OSCILLATION, Remedy, TRUSTED_FORCE, TRUSTED_FORCE_ON_FEW};
 use crate::run::verdict::no_result::{balance_doubts, is_strained};
 use crate::run::words::short;
 
@@ -34,7 +34,8 @@ pub fn verdict(summary: &Summary, contact: &ContactSummary, pair: &Pair, case: &
     let unbalanced = balance_doubts(summary, case);
     // Where nothing presses, meshes agree on a force of zero though the bodies overlap.
     let pressed = !contact.zones.is_empty() || !overlaps(contact);
-    let trust_force = force.map(|error| error <= TRUSTED_FORCE && unbalanced.is_empty() && pressed);
+    let limit = if is_on_few_segments(contact) { TRUSTED_FORCE_ON_FEW } else { TRUSTED_FORCE };
+    let trust_force = force.map(|error| error <= limit && unbalanced.is_empty() && pressed);
     doubts.extend(zone_doubts(contact, trust_force));
     doubts.retain(|_| carries);
     doubts.extend(ENERGY.judge(summary.estimate.energy, &[]));

@@ -61,6 +61,11 @@ fn is_concentrated(zone: &ZoneSummary, trust_force: Option<bool>) -> bool {
     zone.corner == Some(true) && zone.edges.is_some_and(|edges| edges < EDGES.value) && trust_force == Some(true)
 }
 
+/// Whether one of its zones lies on so few segments that its signs of error tell little.
+pub fn is_on_few_segments(contact: &ContactSummary) -> bool {
+    counting(contact).any(|zone| !is_divided(zone))
+}
+
 /// Whether its signs of error can tell anything.
 fn is_divided(zone: &ZoneSummary) -> bool {
     zone.segments.is_some_and(|segments| segments > 2) || zone.worst.is_some_and(|worst| worst <= NEXT_TO_NOTHING)
