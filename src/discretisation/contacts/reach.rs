@@ -28,7 +28,11 @@ pub fn widest(scene: &Scene, numbering: &Numbering, pair: &Pair) -> Known {
     };
     let can_be_measured = |known: &Known| {
         let contact = Contact::new(scene, numbering, 0, pair, 0, known, &at_rest);
-        contact.is_ok_and(|contact| lies_between(&contact) && coupled_here(std::slice::from_ref(&contact)).is_ok())
+        // Beyond the end of a round side its curve goes on straight, where the side itself has no edge.
+        let faces = |contact: &Contact| contact.edges.iter().all(|edges| !edges.is_empty());
+        contact.is_ok_and(|contact| {
+            faces(&contact) && lies_between(&contact) && coupled_here(std::slice::from_ref(&contact)).is_ok()
+        })
     };
     let whole = |meeting: &Meeting| Known { meeting: Some(meeting.clone()), ..Known::default() };
     let parts = |meeting: &Meeting, touch: Option<f64>| {
