@@ -1,6 +1,7 @@
 //! Estimated discretisation errors against true ones, and solves that stop there.
 
-use crate::support::{Ended, Run};
+use crate::support::mesh::{Mesh, grid, write_scene};
+use crate::support::{Ended, Run, ranks_in_turn};
 use std::path::Path;
 
 fn effectivity(ended: &Ended, truth: f64) -> f64 {
@@ -88,4 +89,39 @@ fn the_pressure_of_a_contact_that_closes_in_part_is_measured_there() {
     let ended = Run::file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/first/case.toml")).converged();
     assert!(ended.number("/estimate/seam/lambda") < 0.01);
     assert_eq!(ended.value("/contact/seam/trust"), true);
+}
+
+/// A narrow block joined to a wide one: λ is singular at both corners, whether it presses or pulls.
+#[test]
+fn what_pulls_is_judged_as_what_presses() {
+    let lower = grid(8, 4, 5, |u, v| [4.0 * u, v]);
+    let upper = grid(6, 4, 6, |u, v| [1.0 + 2.0 * u, 1.0 + v]);
+    let mesh = Mesh {
+        bodies: vec![("lower", lower, ["bottom", "", "lower.seam", ""]), ("upper", upper, ["upper.seam", "", "top", ""])],
+    };
+    let case = r#"
+mesh = { file = "mesh.msh", refine = 3 }
+body.lower = { young = 1000.0, poisson = 0.3 }
+body.upper = { young = 1000.0, poisson = 0.3 }
+support.bottom = { on = "bottom", ux = 0.0, uy = 0.0 }
+support.mean = { body = "upper", mean = true, ux = 0.0 }
+load.top = { on = "top", pressure = 1.0 }
+contact.joint = { between = ["lower.seam", "upper.seam"], law = "bilateral" }
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    for (at, space) in ["p0", "p1-discontinuous", "p1-continuous"].into_iter().enumerate() {
+        for ranks in ranks_in_turn(at) {
+            let [pressed, pulled] = [1.0, -1.0].map(|pressure| {
+                let run = Run::file(&file).ranks(ranks).set("contact.joint.multiplier", space);
+                run.set("load.top.pressure", pressure).converged()
+            });
+            let verdict = |ended: &Ended| ended.value("/contact/joint/verdict");
+            assert_eq!(verdict(&pulled), verdict(&pressed), "{space}");
+            assert_eq!(pulled.value("/contact/joint/trust"), true, "{space}");
+            assert!(verdict(&pulled).as_str().is_some_and(|words| words.ends_with("towards an end")), "{}", verdict(&pulled));
+            let peak = |ended: &Ended| ended.number("/contact/joint/zones/0/pressure_max");
+            assert!((peak(&pulled) - peak(&pressed)).abs() < 1e-6 * peak(&pressed), "{space}");
+        }
+    }
 }

@@ -430,3 +430,30 @@ accuracy = { force = 1e-2 }
         assert!(((x / y).abs() / 50f64.to_radians().tan() - 1.0).abs() < 1e-6, "{x} {y}: {}", ended.said());
     }
 }
+
+/// The round side of a nose ends just behind its lowest point, where its curve goes on straight: there it has no edge to lie on.
+#[test]
+fn a_nose_lies_on_a_table_though_its_side_ends_beside_the_place_that_touches() {
+    let nose = |u: f64, v: f64| {
+        let angle = (90.0 * u - 96.0).to_radians();
+        let seat = [0.3 * angle.cos(), 0.3 + 0.3 * angle.sin()];
+        [(1.0 - v) * seat[0] + v * (0.9 * u - 0.6), (1.0 - v) * seat[1] + v * 1.2]
+    };
+    let mesh = Mesh { bodies: vec![("nose", grid(3, 3, 0, nose), ["seat", "", "top", ""])] };
+    let case = r#"
+mesh = { file = "mesh.msh" }
+body.nose = { young = 1000.0, poisson = 0.3 }
+geometry.seat = { curves = ["seat"], circle = { centre = [0.0, 0.3], radius = 0.3 } }
+rigid.table = { line = [[-3.0, -0.0005], [2.0, -0.0005]] }
+contact.seat = { between = ["seat", "rigid.table"] }
+support.upright = { body = "nose", mean = true, ux = 0.0, angle = 0.0 }
+load.top = { on = "top", pressure = 0.1 }
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    for refine in [0, 1, 2] {
+        let ended = Run::file(&file).set("mesh.refine", refine).ranks(1 + refine).ended();
+        assert_eq!(ended.value("/status"), "unresolved", "{}", ended.said());
+        assert!((ended.number("/contact/seat/force") - 0.09).abs() < 1e-6, "{}", ended.said());
+    }
+}

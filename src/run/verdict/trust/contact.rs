@@ -9,7 +9,9 @@ use crate::case::Case;
 use crate::contact::{Pair, Quadrature};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
-use crate::run::verdict::limits::{CORNERS, Doubt, ENERGY, FORCE, INF_SUP, OSCILLATION, Remedy, TRUSTED_FORCE, TRUSTED_FORCE_ON_FEW};
+use crate::run::verdict::limits::{
+    CORNERS, Doubt, ENERGY, FORCE, INF_SUP, OSCILLATION, Remedy, TRUSTED_FORCE, TRUSTED_FORCE_ON_FEW,
+};
 use crate::run::verdict::no_result::{balance_doubts, is_strained};
 use crate::run::words::short;
 

@@ -362,3 +362,15 @@ fn of_many_contacts_causes_are_counted_and_the_worst_are_named() {
     let (_, few) = scene(summary::MOST_TOLD, |k| 1.0 + k as f64, |_| 1.0, &[]);
     assert_eq!(few.unreliable.expect("words").matches("contact c").count(), summary::MOST_TOLD);
 }
+
+#[test]
+fn a_force_on_one_or_two_segments_is_trusted_where_it_is_known_far_better() {
+    let trusted = |segments, error| {
+        let change = |summary: &mut Summary| {
+            summary.contact.get_mut("seam").expect("it is there").zones[0].segments = Some(segments);
+            summary.estimate.contact.get_mut("seam").expect("it is there").force = Some(error);
+        };
+        judged(true, change, &[]).1
+    };
+    assert_eq!([trusted(3, 5.5e-3), trusted(2, 5.5e-3), trusted(2, 1e-3)], [true, false, true].map(Some));
+}
