@@ -158,8 +158,9 @@ impl ContactSolution {
         let displacement = |node: EdgeNode| motion.at(node, &scene.mesh, space);
         let mut known = Vec::new();
         for old in &self.contacts {
-            let ends = (!old.boundary.is_closed()).then(|| old.ends());
-            let beside = beside(scene, &space.numbering, &old.pair, ends);
+            let ([first, last], middle) = (old.ends(), old.boundary.parameter_at(0.5 * old.boundary.length()));
+            let places = (!old.boundary.is_closed()).then(|| [first, old.boundary.point(middle), last]);
+            let beside = beside(scene, &space.numbering, &old.pair, places);
             known.push(Known { coarser: self.is_refined.then(|| old.ends()), touch: old.known.touch, ..beside });
         }
         let mut contacts = Contact::all_again(scene, &space.numbering, session.rank(), &known, &displacement)?;

@@ -56,14 +56,17 @@ impl Meeting {
         WIDENINGS.iter().filter_map(|factor| Self::within(sides, pair, factor * MEETS_AT_REST).ok().flatten())
     }
 
-    /// Beside a Γ_C that has these ends: from the node before the one nearest to the first of them to the node behind the other one.
-    pub fn beside(sides: &[Vec<SmoothSide>; 2], pair: &Pair, ends: [Point; 2]) -> Option<Self> {
+    /// Beside a Γ_C that has these ends, with a place between them: from the node before the one nearest to the first of them to the node
+    /// behind the other one.
+    pub fn beside(sides: &[Vec<SmoothSide>; 2], pair: &Pair, places: [Point; 3]) -> Option<Self> {
         let nearest = |stretches: &[SmoothSide]| {
-            let away = |at: &usize| ends.map(|x| (stretches[*at].nearest_place(x).0 - x).norm()).into_iter().fold(0.0, f64::max);
+            let away = |at: &usize| {
+                [places[0], places[2]].map(|x| (stretches[*at].nearest_place(x).0 - x).norm()).into_iter().fold(0.0, f64::max)
+            };
             (0..stretches.len()).min_by(|a, b| away(a).total_cmp(&away(b)))
         };
         let stretches = [nearest(&sides[0])?, nearest(&sides[1])?];
-        Some(Self::on_a_part([0, 1].map(|k| NearPart::beside(&sides[k][stretches[k]], ends)), stretches, pair))
+        Some(Self::on_a_part([0, 1].map(|k| NearPart::beside(&sides[k][stretches[k]], places)), stretches, pair))
     }
 
     /// Where nodes of both sides are nearer to the other one than a share of the length; nothing if none are.

@@ -31,16 +31,17 @@ impl<'a> NearPart<'a> {
         (nodes[1] > nodes[0]).then_some(Self { side, nodes })
     }
 
-    /// From the node before the one nearest to the first of two places to the node behind the one nearest to the other; on a closed
-    /// stretch by the shorter way.
-    pub fn beside(side: &'a SmoothSide, places: [Point; 2]) -> Self {
-        let ([a, b], count) = (places.map(|x| side.nearest_node(x)), side.nodes());
+    /// From the node before the one nearest to the first of three places to the node behind the one nearest to the last; on a closed
+    /// stretch by way of the one between.
+    pub fn beside(side: &'a SmoothSide, places: [Point; 3]) -> Self {
+        let ([a, between, b], count) = (places.map(|x| side.nearest_node(x)), side.nodes());
         if side.turn().is_none() {
             return Self { side, nodes: [a.min(b).saturating_sub(1), (a.max(b) + 1).min(count - 1)] };
         }
-        let [there, back] = [(b + count - a) % count, (a + count - b) % count];
-        let before = (if back < there { b } else { a } + count - 1) % count;
-        Self { side, nodes: [before, before + there.min(back) + 2] }
+        let way = |from: usize, to: usize| (to + count - from) % count;
+        let [first, last] = if way(a, between) <= way(a, b) { [a, b] } else { [b, a] };
+        let before = (first + count - 1) % count;
+        Self { side, nodes: [before, before + way(first, last) + 2] }
     }
 
     /// Whether it goes all around a closed stretch.

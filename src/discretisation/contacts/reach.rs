@@ -72,12 +72,12 @@ fn touching(sides: &[Vec<SmoothSide>; 2], meeting: &Meeting, pair: &Pair) -> Opt
     Some(first.nearest(touch.place, Configuration::Reference))
 }
 
-/// What places a contact beside where it lay on a coarser mesh, with its open ends there; where its sides are drawn nearest, if it goes
-/// all around.
-pub fn beside(scene: &Scene, numbering: &Numbering, pair: &Pair, ends: Option<[Point; 2]>) -> Known {
+/// What places a contact beside where it lay on a coarser mesh, with its open ends there and its middle between them; where its sides are
+/// drawn nearest, if it goes all around.
+pub fn beside(scene: &Scene, numbering: &Numbering, pair: &Pair, places: Option<[Point; 3]>) -> Known {
     let sides = pair.curve.is_found().then(|| SmoothSide::of_pair(&scene.mesh, numbering, pair, &|_| Point::zeros()));
-    let meeting = |sides: &[Vec<SmoothSide>; 2]| match ends {
-        Some(ends) => Meeting::beside(sides, pair, ends),
+    let meeting = |sides: &[Vec<SmoothSide>; 2]| match places {
+        Some(places) => Meeting::beside(sides, pair, places),
         None => Meeting::at_rest(sides, pair).ok(),
     };
     Known { meeting: sides.as_ref().and_then(meeting), ..Known::default() }
