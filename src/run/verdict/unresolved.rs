@@ -4,10 +4,10 @@ use crate::accuracy::{NARROWEST, share_of_nothing};
 use crate::case::Case;
 use crate::contact::{Configuration, Law, Pair, SegmentRule};
 use crate::output::Summary;
-use crate::output::summary::{ContactSummary, ZoneSummary};
+use crate::output::summary::ContactSummary;
 use crate::procedure::MOVES;
-use crate::run::verdict::limits::{DEEPEST, EDGES, FORCE_OFF, HERTZ_BY_UNRESOLVED, LEFT, OVERLAP_ALONE, WORTH_WITHIN_SEGMENTS};
-use crate::run::verdict::trust::{finer_mesh, slip_doubt};
+use crate::run::verdict::limits::{DEEPEST, FORCE_OFF, HERTZ_BY_UNRESOLVED, LEFT, OVERLAP_ALONE, WORTH_WITHIN_SEGMENTS};
+use crate::run::verdict::trust::{finer_mesh, refinements_wanted, slip_doubt, width};
 use crate::run::words::short;
 
 /// What is judged at.
@@ -45,15 +45,8 @@ fn too_narrow(judged: &Judged) -> Option<String> {
         let share = |(_, (width, edge)): &(&str, (f64, f64))| width / edge;
         share(a).total_cmp(&share(b))
     })?;
-    let (remedy, [width, edge]) = (judged.remedy(name, width / edge), [width, edge].map(short));
+    let (remedy, [width, edge]) = (judged.remedy(name), [width, edge].map(short));
     Some(format!("contact {name} is {width} wide by its force, less than an edge of {edge} there; {remedy}"))
-}
-
-/// Width of a zone and length of the edges there: by what presses, and by what its force asks for.
-fn width(zone: &ZoneSummary) -> Option<(f64, f64)> {
-    let [from, to] = zone.ends?;
-    let edge = (to - from) / zone.edges.filter(|edges| *edges > 0.0)?;
-    Some((zone.hertz_width.map_or(to - from, |width| width.min(to - from)), edge))
 }
 
 /// Bodies that lie in each other, on Γ_C or beyond its ends.
@@ -70,8 +63,7 @@ fn in_each_other(judged: &Judged) -> Option<String> {
     let (name, contact) = judged.contacts().max_by(|a, b| share(a.1).total_cmp(&share(b.1)))?;
     let (depth, approach) = deep(contact).filter(|_| share(contact) > DEEPEST)?;
     let [x, y] = contact.deepest?.map(short);
-    let edges = contact.zones.iter().filter_map(width).map(|(width, edge)| width / edge).fold(f64::INFINITY, f64::min);
-    let remedy = judged.remedy(name, edges);
+    let remedy = judged.remedy(name);
     Some(format!(
         "contact {name}: the bodies lie in each other by {depth:.1e} near ({x}, {y}), and have come together by {approach:.1e}; {remedy}"
     ))
@@ -92,7 +84,7 @@ fn within_segments(judged: &Judged) -> Option<String> {
     let words = format!("contact {name}: the bodies lie in each other within segments that are longer than what presses");
     let is_auto = judged.case.contacts.iter().any(|pair| pair.name == name && pair.segments == SegmentRule::Auto);
     if is_auto || judged.case.accuracy.is_some() {
-        return Some(format!("{words}; {}", judged.remedy(name, f64::INFINITY)));
+        return Some(format!("{words}; {}", judged.remedy(name)));
     }
     Some(format!("{words}; take contact.{name}.segments = \"auto\", or more of them"))
 }
@@ -101,7 +93,7 @@ fn within_segments(judged: &Judged) -> Option<String> {
 fn still_moving(judged: &Judged) -> Option<String> {
     let moved = judged.moved.filter(|moved| *moved > MOVES)?;
     let (name, _) = judged.contacts().next()?;
-    let remedy = judged.against_sliding().unwrap_or_else(|| judged.remedy(name, f64::INFINITY));
+    let remedy = judged.against_sliding().unwrap_or_else(|| judged.remedy(name));
     Some(format!("the ends of the contact boundary find no rest: they still moved by {moved:.0e} of its length; {remedy}"))
 }
 
@@ -143,14 +135,13 @@ impl Judged<'_> {
         share_of_nothing(self.case.accuracy.as_ref()) * self.summary.largest_force()
     }
 
-    /// What would resolve a contact that is so many edges wide: enough edges on it, half as long ones at least, or an accuracy.
-    fn remedy(&self, contact: &str, edges: f64) -> String {
-        let finer = (EDGES.value / edges).log2().ceil().max(1.0) as usize;
+    /// What would resolve a contact: a mesh with enough edges on each, or an accuracy.
+    fn remedy(&self, contact: &str) -> String {
         if self.case.accuracy.is_some() {
             let tolerance = 0.25 * share_of_nothing(self.case.accuracy.as_ref());
             return format!("ask for a smaller error, as in [accuracy.contact.{contact}] force = {tolerance:.0e}");
         }
-        finer_mesh(self.case, finer, "force")
+        finer_mesh(self.case, refinements_wanted(self.summary, self.case), "force")
     }
 }
 

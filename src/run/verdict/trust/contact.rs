@@ -1,7 +1,7 @@
 //! The verdict on one contact.
 
 use super::beyond::doubts_beyond;
-use super::remedies::CUT;
+use super::remedies::{CUT, Mended};
 use super::told::{Objection, Verdict};
 use super::zones::{is_on_few_segments, is_proved, overlaps, unknown_of, zone_doubts};
 use crate::accuracy::share_of_nothing;
@@ -21,10 +21,11 @@ const NOTHING_PRESSES: &str = "nothing presses";
 /// The verdict on a contact, as it was solved. Trust is false if a figure speaks against the pressure, or if the solve that it comes
 /// from has not `converged`; it is null if nothing tells, or if the corner of a body presses on too few edges. Of a contact that
 /// carries next to nothing of the largest force no zone need be resolved.
-pub fn verdict(summary: &Summary, contact: &ContactSummary, pair: &Pair, case: &Case, converged: bool) -> Verdict {
+pub fn verdict(summary: &Summary, contact: &ContactSummary, mended: Mended, converged: bool) -> Verdict {
+    let Mended { pair, case, .. } = mended;
     let mut doubts = stability_doubts(contact);
     if !converged {
-        return Verdict { trust: Some(false), trust_force: Some(false), ..Verdict::of(doubts, pair, case) };
+        return Verdict { trust: Some(false), trust_force: Some(false), ..Verdict::of(doubts, mended) };
     }
     if is_rounding(summary, contact, case) {
         let words = "the bodies touch without being strained, and press by rounding alone";
@@ -47,11 +48,11 @@ pub fn verdict(summary: &Summary, contact: &ContactSummary, pair: &Pair, case: &
     let trust_force = trust_force.map(|trust| trust && beyond.is_empty());
     doubts.extend(beyond);
     doubts.extend(corner_doubt(contact, &pair.between).filter(|_| carries));
-    let unknown = uncut(pair).or_else(|| unknown_of(contact, trust_force, Remedy::MoreSegments.words(pair, case)));
+    let unknown = uncut(pair).or_else(|| unknown_of(contact, trust_force, mended.by(Remedy::MoreSegments)));
     let unknown = unknown.filter(|_| carries);
     let trust = if doubts.is_empty() { unknown.is_none().then_some(true) } else { Some(false) };
     let idle = idle.or_else(|| (contact.force == Some(0.0) && contact.zones.is_empty()).then(|| NOTHING_PRESSES.into()));
-    Verdict { unknown, trust, trust_force, idle, ..Verdict::of(doubts, pair, case) }
+    Verdict { unknown, trust, trust_force, idle, ..Verdict::of(doubts, mended) }
 }
 
 /// What a contact is called that carries next to nothing of the largest force, with all that overlaps beside it are worth.

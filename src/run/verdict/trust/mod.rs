@@ -13,13 +13,15 @@ mod told;
 mod zones;
 
 pub(super) use beyond::slip_doubt;
-pub(super) use remedies::finer_mesh;
+pub(super) use remedies::{finer_mesh, refinements_wanted};
+pub(super) use zones::width;
 
 use crate::case::Case;
 use crate::contact::{Pair, SegmentRule};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ContactTrust};
 use contact::verdict;
+use remedies::Mended;
 use std::collections::BTreeMap;
 use told::{TRUSTED, Verdict, clauses, in_order};
 
@@ -34,9 +36,10 @@ pub struct Judgement {
 
 /// Sets the trust of every contact of a solution.
 pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
+    let refinements = refinements_wanted(summary, case);
     let judged = as_solved(case).into_iter().filter_map(|pair| {
         let contact = summary.contact.get(&pair.name)?;
-        Some((pair.name.clone(), verdict(summary, contact, &pair, case, converged)))
+        Some((pair.name.clone(), verdict(summary, contact, Mended { pair: &pair, case, refinements }, converged)))
     });
     let verdicts: BTreeMap<String, Verdict> = judged.collect();
     for (name, contact) in &mut summary.contact {

@@ -1,9 +1,12 @@
 //! What mends a pressure that is too inexact, in the terms of its case.
 
+use super::contact::idle_words;
+use super::zones::fewest_edges;
 use crate::case::Case;
 use crate::contact::{Pair, Quadrature, SegmentRule};
 use crate::element::Order;
-use crate::run::verdict::limits::{P1_STIFF, Remedy};
+use crate::output::Summary;
+use crate::run::verdict::limits::{EDGES, P1_STIFF, Remedy};
 
 /// What mends it where the mesh makes itself.
 const LESS_ERROR: &str = "ask for a smaller error, of pressure too, or allow more unknowns";
@@ -11,21 +14,39 @@ const LESS_ERROR: &str = "ask for a smaller error, of pressure too, or allow mor
 /// What makes λ exact where it is not so on any mesh.
 pub const CUT: &str = "take quadrature = \"cut\"";
 
-impl Remedy {
-    /// The words for a contact. `pair` is as it was solved: on a mesh that makes itself the segments are the program's own.
-    pub fn words(self, pair: &Pair, case: &Case) -> String {
-        let finer = finer_mesh(case, 1, "pressure");
-        match self {
-            Self::Words(words) => words.into(),
-            Self::MoreSegments if pair.segments != SegmentRule::Auto => {
+/// A contact whose pressure is to be mended.
+#[derive(Clone, Copy)]
+pub struct Mended<'a> {
+    /// As it was solved: on a mesh that makes itself the segments are the program's own.
+    pub pair: &'a Pair,
+    pub case: &'a Case,
+    /// Refinements that help it, and every other one.
+    pub refinements: usize,
+}
+
+impl Mended<'_> {
+    /// What a remedy is here, in words.
+    pub fn by(&self, remedy: Remedy) -> String {
+        let Self { pair, case, refinements } = *self;
+        let finer = finer_mesh(case, refinements, "pressure");
+        match remedy {
+            Remedy::Words(words) => words.into(),
+            Remedy::MoreSegments if pair.segments != SegmentRule::Auto => {
                 format!("take more segments (\"auto\" takes as many as the mesh bears), or {finer}")
             }
-            Self::Finer | Self::MoreSegments if case.accuracy.is_none() => finer,
-            Self::Finer | Self::MoreSegments if pair.quadrature == Quadrature::Cut => LESS_ERROR.into(),
-            Self::Finer | Self::MoreSegments => CUT.into(),
-            Self::Stability => stability(pair, case).into(),
+            Remedy::Finer | Remedy::MoreSegments if case.accuracy.is_none() => finer,
+            Remedy::Finer | Remedy::MoreSegments if pair.quadrature == Quadrature::Cut => LESS_ERROR.into(),
+            Remedy::Finer | Remedy::MoreSegments => CUT.into(),
+            Remedy::Stability => stability(pair, case).into(),
         }
     }
+}
+
+/// Refinements that give each contact which carries something enough edges; one at least.
+pub fn refinements_wanted(summary: &Summary, case: &Case) -> usize {
+    let most = summary.largest_force();
+    let carrying = summary.contact.values().filter(|contact| idle_words(contact, case, most).is_none());
+    (EDGES.value / carrying.map(fewest_edges).fold(f64::INFINITY, f64::min)).log2().ceil().max(1.0) as usize
 }
 
 /// What makes a mesh finer that does not make itself: so many refinements more, or a goal. Steps and an accuracy exclude each other.

@@ -8,6 +8,7 @@ use super::*;
 use crate::output::summary::{self, BalanceSummary, ContactEstimate, EstimateSummary, SupportSummary, ZoneSummary};
 use crate::run::verdict::limits::ENERGY;
 use crate::run::verdict::no_result::balance_doubts;
+use crate::run::verdict::unresolved::unresolved;
 
 /// How the advice begins that asks for a finer mesh.
 const FINER: &str = "take mesh.refine = ";
@@ -240,6 +241,19 @@ fn what_helps_stands_beside_its_cause() {
         is(clauses[1], ["contact seam (estimated error of λ 0.20", ": take mesh.refine = 3", "[accuracy] with pressure = 1e-2"]),
         "{clauses:?}"
     );
+}
+
+/// What is not resolved asks for as fine a mesh as each doubt about it.
+#[test]
+fn all_advice_on_a_mesh_names_the_same_refinement() {
+    let narrow = |summary: &mut Summary| {
+        let contact = summary.contact.get_mut("seam").expect("it is there");
+        (contact.zones[0].edges, contact.zones[0].lambda) = (Some(0.1), Some(0.2));
+        assert!(unresolved(summary, &case(&[]), None).is_some_and(|words| words.contains("take mesh.refine = 6,")));
+    };
+    let (.., words) = judged(true, narrow, &[]);
+    let named = words.matches("mesh.refine = ").count();
+    assert!(named > 0 && words.matches("mesh.refine = 6,").count() == named, "{words}");
 }
 
 /// With an accuracy the mesh and its segments are the program's own.

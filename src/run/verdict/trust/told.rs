@@ -1,7 +1,7 @@
 //! What is said of contacts: of a few one by one, of many by causes.
 
+use super::remedies::Mended;
 use crate::case::Case;
-use crate::contact::Pair;
 use crate::output::Summary;
 use crate::output::summary::{self, ContactTrust};
 use crate::run::verdict::limits::{Doubt, Remedy};
@@ -37,12 +37,12 @@ pub struct Verdict {
 
 impl Verdict {
     /// Doubts of a contact, and nothing else.
-    pub fn of(doubts: Vec<Doubt>, pair: &Pair, case: &Case) -> Self {
+    pub fn of(doubts: Vec<Doubt>, contact: Mended) -> Self {
         // Segments that are too many for the bodies may overlap between few that press: more of them help nothing.
         let is_unstable = doubts.iter().any(|doubt| matches!(doubt.limit.remedy, Remedy::Stability));
         let helping = |remedy| if is_unstable && remedy == Remedy::MoreSegments { Remedy::Stability } else { remedy };
         let objection = |Doubt { limit, figure }| {
-            let remedy = helping(limit.remedy).words(pair, case);
+            let remedy = contact.by(helping(limit.remedy));
             Objection { cause: limit.cause, words: figure, remedy: Some(remedy) }
         };
         Self { doubts: doubts.into_iter().map(objection).collect(), ..Self::default() }

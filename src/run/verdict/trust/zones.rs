@@ -61,6 +61,19 @@ fn is_concentrated(zone: &ZoneSummary, trust_force: Option<bool>) -> bool {
     zone.corner == Some(true) && zone.edges.is_some_and(|edges| edges < EDGES.value) && trust_force == Some(true)
 }
 
+/// Width of a zone and length of the edges there: by what presses, and by what its force asks for.
+pub fn width(zone: &ZoneSummary) -> Option<(f64, f64)> {
+    let [from, to] = zone.ends?;
+    let edge = (to - from) / zone.edges.filter(|edges| *edges > 0.0)?;
+    Some((zone.hertz_width.map_or(to - from, |width| width.min(to - from)), edge))
+}
+
+/// Edges on the narrowest zone that counts; the corner of a body has as few on every mesh.
+pub fn fewest_edges(contact: &ContactSummary) -> f64 {
+    let wide = counting(contact).filter(|zone| zone.corner != Some(true) || zone.hertz_width.is_some());
+    wide.filter_map(width).map(|(width, edge)| width / edge).fold(f64::INFINITY, f64::min)
+}
+
 /// Whether one of its zones lies on so few segments that its signs of error tell little.
 pub fn is_on_few_segments(contact: &ContactSummary) -> bool {
     counting(contact).any(|zone| !is_divided(zone))
