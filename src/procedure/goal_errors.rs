@@ -171,7 +171,8 @@ impl Procedure<'_> {
 fn has_unbounded_peak(Solved { problem, solution, estimate, .. }: &Solved, at: usize) -> bool {
     let pressure = solution.pressure(&problem.contacts[at]);
     let grows = |(zone, at_ends): (&Zone, &AtEnds)| {
-        (0..2).any(|end| pressure.grows_towards(zone, end, at_ends.map(|values| values.map(|values| values[end]))))
+        (0..2)
+            .any(|end| pressure.grows_towards(&problem.scene, zone, end, at_ends.map(|values| values.map(|values| values[end]))))
     };
     let zones = pressure.zones();
     zones.iter().any(|zone| pressure.grows_at_joint(zone).is_some()) || zones.iter().zip(&estimate.at_ends(at)).any(grows)

@@ -1,7 +1,7 @@
 //! Where the pressure of a zone has no bound, at the ends of Γ_C and where materials meet; corners of one body at these ends.
 
 use crate::contact::{MultiplierSpace, Zone};
-use crate::discretisation::{Contact, ContactPressure};
+use crate::discretisation::{Contact, ContactPressure, Scene};
 use crate::mesh::MacroMesh;
 
 /// Growth of the pressure from the last segment but one to the last, and by one refinement, above which it may be singular at
@@ -27,8 +27,9 @@ pub const SAME: f64 = 1e-6;
 
 impl ContactPressure<'_> {
     /// Whether λ grows towards an end of Γ_C, ever more quickly, and without bound as meshes are refined, as far as the values
-    /// there on the mesh `before` and on the one before that (`earlier`) tell. Steps grow towards any steep end.
-    pub fn grows_towards(&self, zone: &Zone, end: usize, [before, earlier]: [Option<f64>; 2]) -> bool {
+    /// there on the mesh `before` and on the one before that (`earlier`) tell, or because the corner of a body presses there on an
+    /// elastic one that goes on (Dundurs, Lee 1972). Steps grow towards any steep end.
+    pub fn grows_towards(&self, scene: &Scene, zone: &Zone, end: usize, [before, earlier]: [Option<f64>; 2]) -> bool {
         if !zone.is_at_end[end] || zone.segments.len() < 3 {
             return false;
         }
@@ -41,7 +42,9 @@ impl ContactPressure<'_> {
             (Some(before), None) => self.contact.multipliers.space != MultiplierSpace::P0 && last > GROWS * before,
             _ => true,
         };
-        grown && self.steepens([0, 1, 2].map(nth), GROWS)
+        let presses_in =
+            || self.ends_at_a_corner(&scene.mesh, zone, end) && !self.contact.bodies.iter().any(|&body| scene.is_rigid(body));
+        self.steepens([0, 1, 2].map(nth), GROWS) && (grown || self.peaks_at_end(zone) && presses_in())
     }
 
     /// Whether λ grows by more than a factor towards the first of three segments in a row, ever more quickly.
@@ -155,7 +158,8 @@ mod tests {
         let mut fractions = fractions.to_vec();
         fractions.sort_by(f64::total_cmp);
         pair.segments = SegmentRule::Fractions(fractions);
-        let contact = contact(&blocks(pair, |_| Point::zeros(), Vec::new()), Known::default());
+        let scene = blocks(pair, |_| Point::zeros(), Vec::new());
+        let contact = contact(&scene, Known::default());
         let away = |k: usize| {
             let middle = 0.5 * (contact.boundary.arcs()[k] + contact.boundary.arcs()[k + 1]);
             if end == 0 { middle } else { 2.0 - middle }
@@ -166,7 +170,7 @@ mod tests {
         let pressure = ContactPressure { contact: &contact, values: &values, active: &active };
         let zones = pressure.zones();
         assert_eq!(zones.len(), 1);
-        pressure.grows_towards(&zones[0], end, before)
+        pressure.grows_towards(&scene, &zones[0], end, before)
     }
 
     #[test]
@@ -225,13 +229,14 @@ mod tests {
 
     #[test]
     fn a_zone_that_ends_inside_or_on_two_segments_is_not_singular() {
-        let contact = contact(&blocks(pair(MultiplierSpace::P0, 10), |_| Point::zeros(), Vec::new()), Known::default());
+        let scene = blocks(pair(MultiplierSpace::P0, 10), |_| Point::zeros(), Vec::new());
+        let contact = contact(&scene, Known::default());
         let found = |pressed: std::ops::Range<usize>, end: usize| {
             let power = |k: usize| 1.0 / (if end == 0 { k - pressed.start + 1 } else { pressed.end - k } as f64);
             let values: Vec<f64> = (0..10).map(|k| if pressed.contains(&k) { power(k) } else { 0.0 }).collect();
             let active: Vec<bool> = (0..10).map(|k| pressed.contains(&k)).collect();
             let pressure = ContactPressure { contact: &contact, values: &values, active: &active };
-            pressure.grows_towards(&pressure.zones()[0], end, [None; 2])
+            pressure.grows_towards(&scene, &pressure.zones()[0], end, [None; 2])
         };
         assert!(found(0..5, 0) && found(5..10, 1) && found(0..3, 0) && found(0..10, 1));
         assert!(!found(1..6, 0) && !found(4..9, 1) && !found(0..2, 0) && !found(8..10, 1));
@@ -247,6 +252,20 @@ mod tests {
         let of = |zone: &Zone| [0, 1].map(|end| pressure.ends_at_a_corner(&scene.mesh, zone, end));
         assert_eq!(of(&zone(&inner)), [false; 2]);
         of(&zone(&[true; 8]))
+    }
+
+    /// λ rises ever more quickly towards both ends, and has changed little since the mesh before.
+    #[test]
+    fn the_corner_of_a_body_that_presses_on_one_that_goes_on_is_singular_on_any_mesh() {
+        let grows = |upper: &dyn Fn(Point) -> Point| {
+            let scene = blocks(pair(MultiplierSpace::P0, 8), upper, Vec::new());
+            let contact = contact(&scene, Known::default());
+            let values = [2.0, 1.3, 1.1, 1.0, 1.0, 1.1, 1.3, 2.0];
+            let pressure = ContactPressure { contact: &contact, values: &values, active: &[true; 8] };
+            [0, 1].map(|end| pressure.grows_towards(&scene, &pressure.zones()[0], end, [Some(1.99), Some(1.98)]))
+        };
+        assert_eq!(grows(&|_| Point::zeros()), [false; 2], "both end");
+        assert_eq!(grows(&|_| Point::new(0.3, 0.0)), [true; 2]);
     }
 
     #[test]

@@ -74,7 +74,7 @@ impl<'a> Zones<'a> {
         let describe = |(k, share): (usize, f64)| {
             let (zone, (found, at_ends)) = (&zones[k], &estimates[k]);
             let before = |end: usize| at_ends.map(|values| values.map(|values| values[end]));
-            let grows = (0..2).any(|end| pressure.grows_towards(zone, end, before(end)));
+            let grows = (0..2).any(|end| pressure.grows_towards(&problem.scene, zone, end, before(end)));
             let goes_on = goes_on.get(k).is_none_or(|goes_on| *goes_on);
             let joint = pressure.grows_at_joint(zone).filter(|_| goes_on).map(|t| contact.boundary.point(t).into());
             let at_end = is_singular(grows, corner_error);
