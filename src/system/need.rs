@@ -1,8 +1,9 @@
 //! How much memory a run will take, before it takes it.
 //!
 //! Rows of the stiffness are counted by what is stored of each: bent macro triangles store all of theirs, the rows inside of others
-//! are alike but for a few, and large even ones store none. All else goes with the unknowns of the finest level and with the macro
-//! triangles. Processes and libraries, some 60 MB for each rank, are there already when this is asked.
+//! are alike but for a few, and large even ones store none, nor do straight P2 triangles of a mesh that is not cut up. All else goes
+//! with the unknowns of the finest level and with the macro triangles. Processes and libraries, some 60 MB for each rank, are there
+//! already when this is asked.
 //!
 //! Forecast, by the rounded figures of `mezha check`, and resident memory of all ranks with those 60 MB, on two ranks, MB:
 //!
@@ -13,8 +14,8 @@
 //! | `rigid_strip`, P2, `refine = 6` | 4.3 million | 1760 | 1705 |
 //! | `hertz`, P2, `refine = 6` | 3.0 million | 750 | 781 |
 //! | `graded.toml` of `bars_inclined`, P2, `refine = 6` | 0.9 million | 614 | 601 |
-//! | a million triangles of a file, P1 | 1.0 million | 1240 | 1138 |
-//! | the same, P2 | 4.0 million | 3000 | 2989 |
+//! | a million triangles of a file, P1 | 1.0 million | 1190 | 1050 |
+//! | the same, P2 | 4.0 million | 2080 | 1925 |
 //! | 182 thousand triangles of Gmsh, P2, `refine = 1` | 2.9 million | 2004 | 2003 |
 
 use crate::discretisation::{Form, SMALL, Scene, node_count, ranks_in_group};
@@ -41,7 +42,7 @@ const BY_UNKNOWN_IF_FLAT: f64 = 270.0;
 const BY_UNKNOWN_IF_RIGID: f64 = 56.0;
 
 /// Bytes for each macro triangle on every rank: the mesh and its partition.
-const BY_MACRO_TRIANGLE: f64 = 240.0;
+const BY_MACRO_TRIANGLE: f64 = 216.0;
 
 /// Bytes for each macro triangle of a rank where auxiliary levels stand below them: their functions at the vertices, with lists both
 /// ways, and their rows. These and the figure above were counted on 1.13 million triangles by the places that ask for memory.
@@ -61,6 +62,13 @@ const BY_ROW: f64 = 56.0;
 /// its inverse, a sum.
 const BY_SWEPT_BLOCK: f64 = 16.0;
 const BY_SWEPT_ROW: f64 = 52.0;
+
+/// A straight triangle of P2 whose nodes have no stored rows: there is one for two nodes. A node couples to 3.75 later ones then.
+const BY_STRAIGHT: f64 = 64.0;
+const LATER: f64 = 3.75;
+
+/// What a row without blocks has: its node, its beginnings.
+const BY_EMPTY_ROW: f64 = 24.0;
 
 /// Mean number of blocks in a stored row, P1 and P2.
 const BLOCKS: [f64; 2] = [7.0, 11.5];
@@ -128,7 +136,20 @@ fn memory_of_level(scene: &Scene, level: Level, form: Form, rank: usize) -> f64 
     let stored = Numbering::new(level, &scene.partition).range(rank).len() - whole;
     let swept = if whole == 0 && form == Form::Augmented { BY_SWEPT_ROW + 0.5 * BY_SWEPT_BLOCK * (blocks - 1.0) } else { 0.0 };
     let of_row = copies * (BY_ROW + BY_COLUMN * blocks) + swept;
-    of_row * stored as f64 + BY_BLOCK * blocks * (stored - alike) as f64
+    let straight = if form == Form::Augmented { share_straight(scene, level, rank) } else { 0.0 };
+    let of_straight =
+        copies * (BY_EMPTY_ROW + BY_COLUMN * (1.0 + LATER)) + BY_SWEPT_ROW + BY_SWEPT_BLOCK * LATER + 0.5 * BY_STRAIGHT;
+    let of_stored = of_row * stored as f64 + BY_BLOCK * blocks * (stored - alike) as f64;
+    straight * of_straight * stored as f64 + (1.0 - straight) * of_stored
+}
+
+/// Share of a rank's nodes that have no stored rows because triangles around them are straight; those on sides of the rank are few.
+fn share_straight(scene: &Scene, level: Level, rank: usize) -> f64 {
+    let own = scene.partition.triangles_of(rank);
+    if level.order == Order::P1 || !level.is_one_triangle() || !scene.springs.is_empty() || own.is_empty() {
+        return 0.0;
+    }
+    own.iter().filter(|&&triangle| scene.mesh.repeats(triangle as usize)).count() as f64 / own.len() as f64
 }
 
 /// Nodes of a rank inside of macro triangles: those whose rows are not stored, and those whose blocks another row has, too.

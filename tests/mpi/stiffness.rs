@@ -6,11 +6,11 @@ mod launch;
 
 use launch::{Suite, named};
 use mezha::body::Support;
-use mezha::discretisation::{Discretisation, Field, Form, Space, local_strain_energy};
+use mezha::discretisation::{Discretisation, Field, Form, Scene, Space, local_strain_energy, spread};
 use mezha::element::Order;
 use mezha::geometry::{Curve, Formula};
-use mezha::mesh::{Partition, lattice};
-use mezha::multigrid::{Cycle, Elastic, Stiffness, SweepHalves, interpolations};
+use mezha::mesh::{BisectedMesh, Partition, lattice};
+use mezha::multigrid::{ContactNeighbours, Cycle, Elastic, RowPlaces, Stiffness, SweepHalves, interpolations};
 use mezha::petsc::{Krylov, Matrix, Session, Vector, options};
 use std::rc::Rc;
 
@@ -19,6 +19,7 @@ fn main() -> std::process::ExitCode {
         options: (&[], &[]),
         checks: named![
             even_triangles_act_like_stored_rows,
+            straight_triangles_act_like_stored_rows,
             expanded_even_triangles_are_the_stored_matrix,
             the_energy_of_a_product_is_that_of_the_triangles,
             a_sweep_is_symmetric_and_reduces_the_error,
@@ -137,6 +138,68 @@ fn bent(session: &Session, order: Order, refine: usize) -> Discretisation {
     scene.supports.push(Support { name: "press".into(), on: vec!["top".into()], at: None, ux: None, uy: None, normal: down });
     scene.mesh = std::rc::Rc::new(mesh);
     Discretisation::new(scene, session).expect("a discretisation")
+}
+
+/// The bars with a bent top, on a fine mesh that is not cut up: some rows are stored, most are not.
+fn fine(session: &Session) -> Discretisation {
+    let scene = bent(session, Order::P2, 0).scene;
+    let mut mesh = BisectedMesh::new((*scene.mesh).clone());
+    for _ in 0..3 {
+        mesh = mesh.refined(0..mesh.mesh.triangles.len() as u32);
+    }
+    let mesh = Rc::new(mesh.mesh);
+    let partition = Rc::new(spread(&mesh, &[], Order::P2, 0, session).expect("a partition"));
+    Discretisation::new(Scene { mesh, partition, ..scene }, session).expect("a discretisation")
+}
+
+/// Products, norms, expanded rows, and sweeps, also where contact couples nodes of the boundary.
+fn straight_triangles_act_like_stored_rows(session: &Session) {
+    let problem = fine(session);
+    let of_bodies = both(&problem, session);
+    let stored_rows: Vec<usize> = {
+        let (lattice, own) = (of_bodies[0].stiffness[1].lattice(), problem.finest().own.start);
+        let rows = lattice.rows.borrow();
+        (0..rows.nodes.len()).filter(|&k| rows.is_stored(k)).map(|k| own + k).collect()
+    };
+    let own = problem.finest().own.len();
+    assert!(own == 0 || (1..own / 2).contains(&stored_rows.len()), "{} of {own} rows are stored", stored_rows.len());
+    let contact = stored_rows.windows(2).map(|pair| (pair[0], pair.iter().copied().collect())).collect();
+    let neighbours = [ContactNeighbours::new(), contact];
+    let forms = of_bodies.iter().zip([Form::Augmented, Form::Plain]);
+    let [mut straight, mut stored] = forms
+        .map(|(elastic, form)| elastic.with_places(&problem, form, &neighbours, session).expect("places").pop().expect("a level"))
+        .collect::<Vec<_>>()
+        .try_into()
+        .unwrap_or_else(|_| panic!("two"));
+    for stiffness in [&mut straight, &mut stored] {
+        for pair in stored_rows.windows(2) {
+            let mut blocks = Vec::new();
+            let k = stiffness.lattice().places(pair[0], pair.iter().copied(), |place| blocks.push(place));
+            let places = RowPlaces { stored: k, is_last: true, blocks: &blocks };
+            stiffness.add_to_row(places, &[[[7e3, 0.0], [0.0, 9e3]], [[1e3, 2e3], [0.0, 1e3]]]);
+        }
+        stiffness.assemble().expect("values");
+    }
+    let expanded = straight.expanded(session).expect("a matrix").expect("not stored");
+    assert_eq!(expanded.nonzeros().expect("counted"), stored.operator().nonzeros().expect("counted"));
+    let x = erratic(&problem, stored.operator(), 0.3);
+    let exact = product(stored.operator(), &x);
+    for matrix in [straight.operator(), &expanded] {
+        assert!(apart(product(matrix, &x), &exact) < 1e-14);
+    }
+    let [norm, stored_norm] = [&straight, &stored].map(|stiffness| stiffness.operator().norm_infinity().expect("a norm"));
+    assert!((norm / stored_norm - 1.0).abs() < 1e-14);
+    let [swept, exact] = [&straight, &stored].map(|stiffness| {
+        let (mut sums, lattice) = (x.duplicate().expect("a vector"), stiffness.lattice());
+        let (mut sweep, mut r) = (lattice.sweep_rows().expect("no lattices"), vec![[0.0; 2]; lattice.node_count()]);
+        let (rows, far) = (lattice.rows.borrow(), vec![[0.5; 2]; lattice.far.len()]);
+        let b = x.values();
+        sweep.relax_from_zero(&rows, b.as_chunks().0, sums.values_mut().as_chunks_mut().0);
+        sweep.residual(&rows, b.as_chunks().0, sums.values().as_chunks().0, &far, &mut r);
+        sweep.relax(&rows, &r, sums.values_mut().as_chunks_mut().0, &far);
+        sums
+    });
+    assert!(apart(swept, &exact) < 1e-13);
 }
 
 /// A rank that left out what triangles of others add to its rows would have another energy, and other forces.

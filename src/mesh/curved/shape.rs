@@ -63,7 +63,7 @@ impl MacroMesh {
                 self.vertices[vertex as usize] = there;
             }
         }
-        self.edges[edge as usize].shape = (!curve.is_line()).then(|| EdgeShape { curve: curve.clone(), range });
+        self.edges[edge as usize].shape = (!curve.is_line()).then(|| Box::new(EdgeShape { curve: curve.clone(), range }));
         Ok(())
     }
 

@@ -81,7 +81,7 @@ impl MacroMesh {
     /// How far the farthest chord of a boundary lies from the spline that it is bent onto (length); 0 if none is.
     pub fn bent_by(&self, boundary: &str) -> f64 {
         let edges = self.edges_of(boundary);
-        let bent = |edge: &&u32| self.edges[**edge as usize].shape.as_ref().is_some_and(EdgeShape::is_spline);
+        let bent = |edge: &&u32| self.edges[**edge as usize].shape.as_ref().is_some_and(|shape| shape.is_spline());
         let height = |&edge: &u32| {
             let [a, b] = self.edge_ends(edge);
             (self.edge_position(edge, 0.5) - 0.5 * (a + b)).norm()

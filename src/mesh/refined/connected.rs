@@ -45,12 +45,12 @@ impl MacroMesh {
             let Some(shape) = &known.shape else { continue };
             let [a, b] = known.vertices;
             match divided(edge) {
-                None => bend([a, b], shape.clone()),
+                None => bend([a, b], (**shape).clone()),
                 Some((middle, t)) => {
                     let [from, to] = shape.range;
                     let at = shape.parameter(t);
-                    bend([a, middle], EdgeShape { range: [from, at], ..shape.clone() });
-                    bend([middle, b], EdgeShape { range: [at, to], ..shape.clone() });
+                    bend([a, middle], EdgeShape { range: [from, at], ..(**shape).clone() });
+                    bend([middle, b], EdgeShape { range: [at, to], ..(**shape).clone() });
                 }
             }
         }

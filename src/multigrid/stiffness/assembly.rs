@@ -1,13 +1,16 @@
 //! Assembly of the stiffness of one level: each rank makes the whole rows of its own nodes, without a word to the others.
 
+mod which_rows;
+
 use super::ContactNeighbours;
 use super::couplings::Couplings;
 use super::even_triangles::EvenTriangles;
 use super::pattern::RowColumns;
 use super::stored_rows::{BlockColumn, StoredRows, place};
+use super::straight_triangles::StraightTriangles;
 use crate::body::{Constraint, MacroStiffness, neighbours, one_stiffness};
 use crate::discretisation::{Scene, Space};
-use crate::element::{BadJacobian, Block, Order, PlaneLaw};
+use crate::element::{BadJacobian, Block, Order};
 use crate::geometry::Point;
 use crate::mesh::{Level, TriangleNumbers, lattice};
 use crate::multigrid::triangle_lattice::{TriangleNodes, side_nodes};
@@ -20,8 +23,10 @@ pub struct Assembly<'a> {
     space: &'a Space,
     /// Macro triangles with nodes of this rank, ascending: every sum is made in this order, whatever the ranks.
     parts: Vec<AssemblyPart>,
-    /// Nodes whose rows are stored, ascending, counted from this rank's first.
+    /// Nodes that do not lie inside of whole macro triangles, ascending, counted from this rank's first.
     nodes: Vec<u32>,
+    /// Whether the rows of these nodes are stored.
+    is_stored: Vec<bool>,
 }
 
 /// What a macro triangle has of this rank's nodes.
@@ -32,6 +37,8 @@ struct AssemblyPart {
     is_own: bool,
     /// Whether all of its inner rows are alike and not stored.
     is_whole: bool,
+    /// Whether it is a single triangle of P2 with the couplings of [`StraightTriangles`].
+    is_straight: bool,
 }
 
 /// The stiffness of a level on this rank.
@@ -42,8 +49,10 @@ pub struct Assembled {
     pub far: Vec<usize>,
     /// Inner nodes of each macro triangle whose inner rows are stored, ascending.
     pub inside: Vec<Range<usize>>,
-    /// The other rows.
+    /// The rows inside of whole macro triangles.
     pub even: EvenTriangles,
+    /// Those of the other nodes that have no stored ones.
+    pub straight: StraightTriangles,
 }
 
 impl<'a> Assembly<'a> {
@@ -56,14 +65,16 @@ impl<'a> Assembly<'a> {
             let numbers = space.numbering.triangle(&scene.mesh, triangle);
             let is_own = partition.owner(triangle as u32) == rank;
             let is_whole = is_own && with_whole && scene.mesh.is_whole(triangle, level);
-            let part = AssemblyPart { triangle, numbers, is_own, is_whole };
+            let is_straight = level.is_one_triangle() && level.order == Order::P2 && scene.mesh.repeats(triangle);
+            let part = AssemblyPart { triangle, numbers, is_own, is_whole, is_straight };
             (is_own || touches(level.intervals, space, &part.numbers)).then_some(part)
         };
         let mut triangles = [partition.triangles_of(rank), partition.of_others_with_nodes(rank)].concat();
         triangles.sort_unstable();
         let parts = triangles.iter().filter_map(part).collect();
-        let mut assembly = Self { scene, space, parts, nodes: Vec::new() };
+        let mut assembly = Self { scene, space, parts, nodes: Vec::new(), is_stored: Vec::new() };
         assembly.nodes = assembly.stored_nodes();
+        assembly.is_stored = if with_whole { assembly.stored_rows() } else { vec![true; assembly.nodes.len()] };
         assembly
     }
 
@@ -76,15 +87,25 @@ impl<'a> Assembly<'a> {
     pub fn assemble(&self, contact: &ContactNeighbours, mut lift: impl FnMut(usize, Point)) -> Result<Assembled, BadJacobian> {
         let laws = self.scene.laws();
         let (mut rows, far) = self.pattern(contact);
-        let mut inside = Vec::new();
+        let (mut inside, mut straight) = (Vec::new(), StraightTriangles::new(&laws));
         let (mut couplings, mut triangles) = (Vec::new(), Vec::new());
         for part in &self.parts {
             let (mesh, level) = (&self.scene.mesh, self.space.numbering.level);
             let law = &laws[mesh.triangles[part.triangle].part as usize];
             if level.is_one_triangle() {
                 match level.order {
-                    Order::P1 => self.add_triangle::<3>(part, law, &far, &mut rows, &mut lift)?,
-                    Order::P2 => self.add_triangle::<6>(part, law, &far, &mut rows, &mut lift)?,
+                    Order::P1 => {
+                        let k = one_stiffness::<3>(mesh, part.triangle, level, law)?;
+                        self.add_triangle::<3>(part, |a, b| Some(k[a][b]), &far, &mut rows, &mut lift);
+                    }
+                    Order::P2 if part.is_straight => {
+                        let k = self.straight(part, &mut straight)?;
+                        self.add_triangle::<6>(part, |a, b| k.coupling(a, b), &far, &mut rows, &mut lift);
+                    }
+                    Order::P2 => {
+                        let k = one_stiffness::<6>(mesh, part.triangle, level, law)?;
+                        self.add_triangle::<6>(part, |a, b| Some(k[a][b]), &far, &mut rows, &mut lift);
+                    }
                 }
                 continue;
             }
@@ -99,14 +120,14 @@ impl<'a> Assembly<'a> {
             }
         }
         self.add_springs(&far, &mut rows, &mut lift);
-        (0..rows.nodes.len()).for_each(|k| rows.invert(k));
+        (0..rows.nodes.len()).filter(|&k| self.is_stored[k]).for_each(|k| rows.invert(k));
         // Rows of a mesh that is not cut up are alike by chance only.
         if !self.space.numbering.level.is_one_triangle() {
             rows.share(contact.range(self.space.own.clone()).map(|(node, _)| node - self.space.own.start));
         }
         inside.sort_unstable_by_key(|nodes: &Range<usize>| nodes.start);
         let even = EvenTriangles::new(self.space.numbering.level.intervals, Rc::new(couplings), triangles);
-        Ok(Assembled { rows, far, inside, even })
+        Ok(Assembled { rows, far, inside, even, straight })
     }
 
     /// The stored rows with zeros, and their columns of other ranks.
@@ -142,21 +163,7 @@ impl<'a> Assembly<'a> {
         }
         let whole = self.parts.iter().filter(|part| part.is_whole);
         let of_sides = whole.flat_map(|part| side_nodes(level.intervals).map(|(i, j)| part.numbers.node(i, j)));
-        couplings.into_rows(self.nodes.clone(), own, of_sides)
-    }
-
-    /// Nodes of this rank that do not lie inside of whole macro triangles, ascending.
-    fn stored_nodes(&self) -> Vec<u32> {
-        let whole = self.parts.iter().filter(|part| part.is_whole);
-        let mut whole: Vec<_> = whole.map(|part| self.inner_nodes(part)).collect();
-        whole.sort_unstable_by_key(|nodes| nodes.start);
-        let count = self.space.own.len();
-        let mut nodes = Vec::with_capacity(count - whole.iter().map(|nodes| nodes.len()).sum::<usize>());
-        let starts = std::iter::once(0).chain(whole.iter().map(|nodes| nodes.end));
-        for (start, end) in starts.zip(whole.iter().map(|nodes| nodes.start).chain([count])) {
-            nodes.extend(start as u32..end as u32);
-        }
-        nodes
+        couplings.into_rows(self.nodes.clone(), own, of_sides, |k| self.is_stored[k])
     }
 
     /// Shows the stored rows of this rank that a macro triangle has a part in: place and lattice node.
@@ -181,13 +188,17 @@ impl<'a> Assembly<'a> {
     }
 
     /// Shows the couplings of different nodes in a macro triangle that is a single triangle: the place of the row, and the
-    /// other node. Those along an edge are shown by the one of its triangles that it runs along, so that all are shown once.
+    /// other node. Those along an edge are shown by the one of its triangles that it runs along, so that all are shown once. Rows without
+    /// blocks leave to earlier ones of their kind what they have in common.
     #[inline]
     fn each_coupling_of_one(&self, part: &AssemblyPart, mut show: impl FnMut(usize, usize)) {
         let own = &self.space.own;
         let mut both = |a: usize, b: usize| {
             for (row, other) in [(a, b), (b, a)].into_iter().filter(|(row, _)| own.contains(row)) {
-                show(place(&self.nodes, row - own.start).expect("a stored row"), other);
+                let k = place(&self.nodes, row - own.start).expect("a row");
+                if self.is_stored[k] || other > row || self.is_stored[other - own.start] {
+                    show(k, other);
+                }
             }
         };
         let forward = self.scene.mesh.triangles[part.triangle].forward;
@@ -204,7 +215,9 @@ impl<'a> Assembly<'a> {
                     both(a, ab);
                     both(b, ab);
                 }
-                both(opposite, ab);
+                if !part.is_straight {
+                    both(opposite, ab);
+                }
                 both(ab, bc);
             }
         }
@@ -216,7 +229,10 @@ impl<'a> Assembly<'a> {
     fn each_row_of_one<const N: usize>(&self, part: &AssemblyPart, mut show: impl FnMut(usize, usize, &[usize; N])) {
         let (nodes, own) = (part.numbers.of_one::<N>(), &self.space.own);
         for (a, row) in nodes.iter().enumerate().filter(|(_, row)| own.contains(row)) {
-            show(place(&self.nodes, row - own.start).expect("a stored row"), a, &nodes);
+            let k = place(&self.nodes, row - own.start).expect("a stored row");
+            if self.is_stored[k] {
+                show(k, a, &nodes);
+            }
         }
     }
 
@@ -252,28 +268,27 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Adds the part that a macro triangle has in the stored rows where it is one triangle.
+    /// Adds the part that a macro triangle has in the stored rows where it is one triangle with these couplings of its nodes.
     fn add_triangle<const N: usize>(
         &self,
         part: &AssemblyPart,
-        law: &PlaneLaw,
+        coupling: impl Fn(usize, usize) -> Option<Block>,
         far: &[usize],
         rows: &mut StoredRows,
         lift: &mut impl FnMut(usize, Point),
-    ) -> Result<(), BadJacobian> {
-        let stiffness = one_stiffness::<N>(&self.scene.mesh, part.triangle, self.space.numbering.level, law)?;
+    ) {
         let constraint = |node: usize| self.space.constraints.get(node);
         self.each_row_of_one::<N>(part, |place, a, nodes| {
             let held = constraint(nodes[a]);
             for (b, &node) in nodes.iter().enumerate() {
+                let Some(block) = coupling(a, b) else { continue };
                 let block = match (held, constraint(node)) {
-                    (None, None) => stiffness[a][b],
-                    (left, right) => constrained(&stiffness[a][b], left, right, a == b, |force| lift(nodes[a], force)),
+                    (None, None) => block,
+                    (left, right) => constrained(&block, left, right, a == b, |force| lift(nodes[a], force)),
                 };
                 rows.add(place, BlockColumn::of(node, &self.space.own, far), &block);
             }
         });
-        Ok(())
     }
 
     /// Shows what prescribed displacements on the sides of a macro triangle do to its inner nodes.
@@ -305,13 +320,6 @@ impl<'a> Assembly<'a> {
                 });
             }
         }
-    }
-
-    /// The inner nodes of a macro triangle of this rank's, counted from the first node of the rank.
-    fn inner_nodes(&self, part: &AssemblyPart) -> Range<usize> {
-        let n = self.space.numbering.level.intervals;
-        let start = if n < 3 { 0 } else { part.numbers.node(1, 1) - self.space.own.start };
-        start..start + lattice::inner_count(n)
     }
 }
 

@@ -52,6 +52,21 @@ fn couplings(stiffness: &MacroStiffness, i: usize, j: usize) -> Vec<(Step, Block
     all
 }
 
+/// Adds a block to another one.
+#[inline(always)]
+pub fn add(sum: &mut Block, block: &Block) {
+    for a in 0..2 {
+        for b in 0..2 {
+            sum[a][b] += block[a][b];
+        }
+    }
+}
+
+/// A block the other way round.
+pub fn transpose([[a, b], [c, d]]: &Block) -> Block {
+    [[*a, *c], [*b, *d]]
+}
+
 /// Inverse of a block, if it has one.
 pub fn inverse(k: &Block) -> Option<Block> {
     // No product of entries leaves the range of numbers.

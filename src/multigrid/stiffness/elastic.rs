@@ -40,8 +40,9 @@ impl Elastic {
             let assembly = Assembly::new(&problem.scene, space, form == Form::Augmented, session.rank());
             let assembled = assembly.assemble(&neighbours[l], lift).map_err(SystemError::from);
             let assembled = session.agree(assembled).map_err(SystemError::Case)?;
-            let Assembled { rows, far, inside, even } = assembled;
-            let lattice = LatticeOperator::new(rows, &space.own, far, &inside.into(), &Rc::new(even), session)?;
+            let Assembled { rows, far, inside, even, straight } = assembled;
+            let others = (&Rc::new(even), &Rc::new(straight));
+            let lattice = LatticeOperator::new(rows, &space.own, far, &inside.into(), others, session)?;
             stiffness.push(Stiffness::new(lattice, seen(problem, last, form, session), session)?);
         }
         Ok(Self { stiffness, load })

@@ -10,17 +10,20 @@ impl LatticeOperator {
     pub fn expanded(&self, session: &Session) -> Result<Matrix> {
         let rows = self.rows.borrow();
         let (mut near, mut far) = (vec![0; self.own.len()], vec![0; self.own.len()]);
-        for (k, &node) in rows.nodes.iter().enumerate() {
+        for (k, &node) in rows.nodes.iter().enumerate().filter(|(k, _)| rows.is_stored(*k)) {
             (near[node as usize], far[node as usize]) = (rows.near.row(k).len() as Index, rows.far.row(k).len() as Index);
         }
         self.each_row(|node, couplings| {
-            near[node] = couplings.iter().filter(|(column, _)| self.own.contains(column)).count() as Index;
-            far[node] = couplings.len() as Index - near[node];
+            let here = couplings.iter().filter(|(column, _)| self.own.contains(column)).count();
+            near[node] += here as Index;
+            far[node] += (couplings.len() - here) as Index;
         });
         let unknowns = 2 * self.own.len();
         let mut matrix = Matrix::aij(session, unknowns, unknowns, 2, &near, &far)?;
         let mut row = BlockRow::default();
-        (0..rows.nodes.len()).try_for_each(|k| self.insert_stored(&rows, k, &mut row, &mut matrix))?;
+        (0..rows.nodes.len())
+            .filter(|&k| rows.is_stored(k))
+            .try_for_each(|k| self.insert_stored(&rows, k, &mut row, &mut matrix))?;
         let mut inserted = Ok(());
         self.each_row(|node, couplings| {
             inserted = inserted.clone().and(row.insert(&mut matrix, self.own.start + node, couplings.iter().copied()));

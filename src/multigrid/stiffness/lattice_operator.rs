@@ -4,6 +4,7 @@ use super::couplings::Couplings;
 use super::even_triangles::EvenTriangles;
 use super::lattice_rows::LatticeRows;
 use super::stored_rows::{BlockColumn, BlockPlace, StoredRows};
+use super::straight_triangles::StraightTriangles;
 use super::sweep_order::{SweepHalves, SweepOrder};
 use super::sweep_rows::SweepRows;
 use super::{ContactNeighbours, RowPlaces};
@@ -21,14 +22,16 @@ pub struct LatticeOperator {
     inside: Rc<[Range<usize>]>,
     /// The even macro triangles.
     pub even: Rc<EvenTriangles>,
+    /// Straight triangles whose nodes have no stored rows.
+    straight: Rc<StraightTriangles>,
     /// The stored rows.
     pub rows: Rc<RefCell<StoredRows>>,
     /// Stored rows with other values since somebody took them, each perhaps several times.
     changed: RefCell<Vec<u32>>,
     /// Columns of other ranks, ascending.
     pub far: Vec<usize>,
-    /// Couplings of all inner nodes of even macro triangles.
-    in_even: f64,
+    /// Couplings that are not stored.
+    not_stored: f64,
     /// What brings the values of the columns of other ranks.
     pub halo: Rc<Halo>,
     order: SweepOrder,
@@ -44,14 +47,14 @@ impl LatticeOperator {
         own: &Range<usize>,
         far: Vec<usize>,
         inside: &Rc<[Range<usize>]>,
-        even: &Rc<EvenTriangles>,
+        (even, straight): (&Rc<EvenTriangles>, &Rc<StraightTriangles>),
         session: &Session,
     ) -> Result<Self> {
         let in_even = even.couplings.iter().zip(&even.triangles).map(|(couplings, triangle)| {
             let all: usize = couplings.iter().flat_map(|couplings| [0, 1].map(|k| couplings.of(k).len())).sum();
             (triangle.inner.len() * all) as f64 / (2 * couplings.len()) as f64
         });
-        let in_even = in_even.sum();
+        let not_stored = in_even.sum::<f64>() + straight.coupling_count() as f64;
         let (order, halo) = (SweepOrder::new(&rows, inside), Rc::new(Halo::new(session, own, &far)));
         let rows = Rc::new(RefCell::new(rows));
         let changed = RefCell::default();
@@ -59,10 +62,11 @@ impl LatticeOperator {
             own: own.clone(),
             inside: inside.clone(),
             even: even.clone(),
+            straight: straight.clone(),
             rows,
             changed,
             far,
-            in_even,
+            not_stored,
             halo,
             order,
             is_product: false,
@@ -71,7 +75,7 @@ impl LatticeOperator {
 
     /// Of the rows of a Galerkin product, those of all nodes of this rank. **Collective**
     pub fn of_product(rows: StoredRows, own: &Range<usize>, far: Vec<usize>, session: &Session) -> Result<Self> {
-        let lattice = Self::new(rows, own, far, &Rc::default(), &Rc::default(), session)?;
+        let lattice = Self::new(rows, own, far, &Rc::default(), (&Rc::default(), &Rc::default()), session)?;
         Ok(Self { is_product: true, ..lattice })
     }
 
@@ -80,7 +84,7 @@ impl LatticeOperator {
         let (rows, far) = self.rows.borrow().with_places(contact, &self.own, &self.far);
         let moved: Vec<u32> = self.far.iter().map(|node| far.binary_search(node).expect("it is among them") as u32).collect();
         let even = if far.len() == self.far.len() { self.even.clone() } else { Rc::new(self.even.moved(self.own.len(), &moved)) };
-        Self::new(rows, &self.own, far, &self.inside, &even, session)
+        Self::new(rows, &self.own, far, &self.inside, (&even, &self.straight), session)
     }
 
     /// Shows where the couplings of a node, one of this rank's, with others lie, and gives its stored row.
@@ -136,7 +140,7 @@ impl LatticeOperator {
     /// The rows as sweeps read them, if all of this rank's are stored.
     pub fn sweep_rows(&self) -> Option<SweepRows> {
         let rows = self.rows.borrow();
-        if rows.nodes.len() < self.own.len() { None } else { SweepRows::new(&rows, !self.is_product) }
+        if rows.nodes.len() < self.own.len() { None } else { SweepRows::new(&rows, &self.straight, !self.is_product) }
     }
 
     /// All rows: those of even macro triangles with the `stored` ones.
@@ -149,8 +153,7 @@ impl LatticeOperator {
         self.own.len()
     }
 
-    /// Shows the rows of all inner nodes of even macro triangles: couplings with nodes by their numbers, that with itself
-    /// first.
+    /// Shows the couplings of rows that are not stored, in one part or several, with nodes by their numbers.
     pub fn each_row(&self, mut show: impl FnMut(usize, &[(usize, Block)])) {
         let mut row = Vec::new();
         let near = self.own.len();
@@ -160,10 +163,13 @@ impl LatticeOperator {
             row.extend(couplings.iter().map(|&(at, block)| (number(at), block)));
             show(node, &row);
         });
+        let number = |at: usize| self.own.start + at;
+        self.straight.each_coupling(&self.rows.borrow(), |row, column, block| show(row, &[(number(column), block)]));
     }
 
-    /// `r = b - K x`. **Collective**
+    /// `r = b - K x`, where sweeps have no rows of their own. **Collective**
     pub fn residual(&self, b: &[[f64; 2]], x: &[[f64; 2]], r: &mut [[f64; 2]]) {
+        assert!(self.straight.is_empty(), "sweeps have rows of their own");
         let (stored, mut far) = (self.rows.borrow(), vec![[0.0; 2]; self.far.len()]);
         self.halo.fetch(x, &mut far, || self.even.residual(true, b, x, &[], r));
         self.even.residual(false, b, x, &far, r);
@@ -181,7 +187,10 @@ impl LatticeOperator {
     /// `y = K x`. **Collective**
     pub fn multiply(&self, x: &[[f64; 2]], y: &mut [[f64; 2]]) {
         let (stored, mut far) = (self.rows.borrow(), vec![[0.0; 2]; self.far.len()]);
-        self.halo.fetch(x, &mut far, || self.even.multiply(true, x, &[], y));
+        self.halo.fetch(x, &mut far, || {
+            self.straight.multiply(x, y);
+            self.even.multiply(true, x, &[], y);
+        });
         self.even.multiply(false, x, &far, y);
         stored.multiply(0..stored.nodes.len(), x, &far, y);
     }
@@ -194,12 +203,17 @@ impl Operator for Rc<LatticeOperator> {
     }
 
     fn norm_infinity(&self) -> Result<f64> {
-        let stored = self.rows.borrow().norm_infinity();
+        let rows = self.rows.borrow();
+        let mut sums = vec![[0.0; 2]; if self.straight.is_empty() { 0 } else { self.own.len() }];
+        self.straight.each_coupling(&rows, |row, _, block| {
+            (0..2).for_each(|a| sums[row][a] += block[a][0].abs() + block[a][1].abs());
+        });
+        let stored = sums.as_flattened().iter().copied().fold(rows.norm_infinity(), f64::max);
         let all = self.even.couplings.iter().flatten();
         Ok(all.map(Couplings::norm_infinity).fold(stored, f64::max))
     }
 
     fn work(&self) -> f64 {
-        8.0 * (self.rows.borrow().block_count() as f64 + self.in_even)
+        8.0 * (self.rows.borrow().block_count() as f64 + self.not_stored)
     }
 }

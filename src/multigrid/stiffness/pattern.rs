@@ -4,7 +4,6 @@ use super::ContactNeighbours;
 use super::stored_rows::{Part, StoredRows};
 use crate::mesh::each_once;
 use std::ops::Range;
-use std::rc::Rc;
 
 /// Columns of rows, each perhaps several times, before they are sorted. Nodes have their numbers among all ranks.
 pub struct RowColumns {
@@ -39,12 +38,13 @@ impl RowColumns {
     }
 
     /// Rows of these nodes with zeros at their couplings, each once and ascending, and the nodes of other ranks among the
-    /// columns and these others; `own` are the nodes of this rank.
+    /// columns and these others; `own` are the nodes of this rank. Some rows have no blocks.
     pub fn into_rows(
         mut self,
         nodes: Vec<u32>,
         own: &Range<usize>,
         others: impl Iterator<Item = usize>,
+        is_stored: impl Fn(usize) -> bool + Copy,
     ) -> (StoredRows, Vec<usize>) {
         let mut far: Vec<usize> = others.filter(|node| !own.contains(node)).collect();
         // What is left of each row moves to the front of all columns.
@@ -66,18 +66,24 @@ impl RowColumns {
             );
         }
         let far = each_once(far);
-        let near = self.part(|column| own.contains(&column).then(|| (column - own.start) as u32));
-        let others = self.part(|column| match own.contains(&column) {
+        let near = self.part(|column| own.contains(&column).then(|| (column - own.start) as u32), is_stored);
+        let place_there = |column| match own.contains(&column) {
             true => None,
             false => Some(far.binary_search(&column).expect("a column of another rank") as u32),
+        };
+        let others = self.part(place_there, is_stored);
+        let mut count = 0;
+        let inverse_of = (0..nodes.len()).map(|k| {
+            count += u32::from(is_stored(k));
+            count.saturating_sub(1)
         });
-        let inverses = vec![[[0.0; 2]; 2]; nodes.len()];
-        let inverse_of = (0..nodes.len() as u32).collect();
+        let inverse_of = inverse_of.collect();
+        let inverses = vec![[[0.0; 2]; 2]; count as usize];
         (StoredRows { nodes, inverses, inverse_of, near, far: others }, far)
     }
 
     /// The columns that `place` has a place for, in their order, with zeros.
-    fn part(&self, place: impl Fn(usize) -> Option<u32>) -> Part {
+    fn part(&self, place: impl Fn(usize) -> Option<u32>, is_stored: impl Fn(usize) -> bool) -> Part {
         let count = self.starts.iter().zip(&self.ends).flat_map(|(&start, &end)| &self.columns[start..end]);
         let count = count.filter(|column| place(**column as usize).is_some()).count();
         let (mut starts, mut columns) = (Vec::with_capacity(self.starts.len() + 1), Vec::with_capacity(count));
@@ -86,11 +92,7 @@ impl RowColumns {
             columns.extend(self.columns[start..end].iter().filter_map(|&column| place(column as usize)));
             starts.push(columns.len() as u32);
         }
-        let firsts = starts[..starts.len() - 1].to_vec();
-        // Pages that the system has cleared are copied when they are first added to: written now, they are touched once.
-        let mut blocks = Vec::with_capacity(columns.len());
-        blocks.resize(columns.len(), [[0.0; 2]; 2]);
-        Part { starts, firsts, kept: Rc::default(), blocks, columns }
+        Part::of_columns(starts, columns, is_stored)
     }
 }
 
@@ -183,6 +185,7 @@ impl Part {
 mod tests {
     use super::super::stored_rows::BlockColumn;
     use super::*;
+    use std::rc::Rc;
 
     /// Three rows along a line, each coupled to those beside it, and the first to a node of another rank.
     fn rows() -> StoredRows {
@@ -190,7 +193,7 @@ mod tests {
         for (row, column) in [(0, 10), (0, 11), (0, 3), (1, 10), (1, 11), (1, 12), (2, 11), (2, 12)] {
             columns.push(row, column);
         }
-        let (mut rows, far) = columns.into_rows(vec![0, 1, 2], &(10..13), std::iter::empty());
+        let (mut rows, far) = columns.into_rows(vec![0, 1, 2], &(10..13), std::iter::empty(), |_| true);
         assert_eq!(far, [3]);
         for k in 0..3 {
             rows.add(k, BlockColumn::Near(k as u32), &[[2.0 + k as f64, 0.0], [0.0, 1.0]]);

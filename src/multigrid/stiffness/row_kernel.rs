@@ -5,7 +5,7 @@ use super::stored_rows::{Part, StoredRows};
 use crate::element::Block;
 use std::ops::Range;
 
-/// Work on the rows of a range. Vectors hold all nodes of the rank.
+/// Work on the rows of a range; products only where rows have blocks. Vectors hold all nodes of the rank.
 pub enum RowTask<'a> {
     Multiply { y: &'a mut [[f64; 2]], x: &'a [[f64; 2]] },
     Residual { r: &'a mut [[f64; 2]], b: &'a [[f64; 2]], x: &'a [[f64; 2]] },
@@ -33,7 +33,7 @@ impl RowWork for OnRows<'_> {
         let Self { rows, range, far, task } = self;
         match task {
             RowTask::Multiply { y, x } => {
-                for k in range {
+                for k in range.filter(|&k| rows.is_stored(k)) {
                     let sum = rows.subtract::<L, false>(lanes, k, [0.0; 2], x, far);
                     y[rows.nodes[k] as usize] = [-sum[0], -sum[1]];
                 }

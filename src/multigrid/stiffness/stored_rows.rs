@@ -1,6 +1,6 @@
 //! The rows of a stiffness that are stored, as blocks of two by two.
 
-use super::couplings::inverse;
+use super::couplings::{add, inverse};
 use crate::element::Block;
 use faer::sparse::Triplet;
 use rustc_hash::FxHashMap;
@@ -11,13 +11,16 @@ use std::rc::Rc;
 /// It bounds the work on long rows of contact, and changes no result; values beside it were not timed.
 const FEW: usize = 32;
 
+/// Where the blocks of a row begin that has none: products of it go through its triangles.
+const NOWHERE: u32 = u32::MAX;
+
 /// Rows of some nodes of this rank. Columns count the nodes of this rank from 0; those of others have places in a list of
 /// their own. Rows with the same couplings share them: along an edge of the macro mesh, or inside of a graded macro triangle, most are.
 #[derive(Clone, Default)]
 pub struct StoredRows {
     /// The nodes, ascending, counted from this rank's first.
     pub nodes: Vec<u32>,
-    /// Inverses of diagonal blocks.
+    /// Inverses of diagonal blocks of rows that have blocks.
     pub(crate) inverses: Vec<Block>,
     /// The inverse of each row.
     pub(crate) inverse_of: Vec<u32>,
@@ -28,7 +31,8 @@ pub struct StoredRows {
 }
 
 /// One part of all rows: the columns of row `k` are `starts[k]..starts[k + 1]`, ascending, and its blocks are as many from
-/// `firsts[k]` on, counted through those that are `kept` and then the others.
+/// `firsts[k]` on, counted through those that are `kept` and then the others. A row without blocks has the columns that
+/// [`super::straight_triangles::StraightTriangles::each_row`] shows.
 #[derive(Clone)]
 pub struct Part {
     pub(crate) starts: Vec<u32>,
@@ -83,6 +87,23 @@ impl Part {
         }
         part.blocks = vec![[[0.0; 2]; 2]; part.columns.len()];
         part
+    }
+
+    /// Zeros in these columns of some rows, one list after the other; `starts` are where those of each row begin.
+    pub fn of_columns(starts: Vec<u32>, columns: Vec<u32>, is_stored: impl Fn(usize) -> bool) -> Self {
+        let mut count = 0;
+        let firsts = starts.windows(2).enumerate().map(|(k, ends)| {
+            if !is_stored(k) {
+                return NOWHERE;
+            }
+            count += ends[1] - ends[0];
+            count - (ends[1] - ends[0])
+        });
+        let firsts = firsts.collect();
+        // Pages that the system has cleared are copied when they are first added to: written now, they are touched once.
+        let mut blocks = Vec::with_capacity(count as usize);
+        blocks.resize(count as usize, [[0.0; 2]; 2]);
+        Self { starts, columns, firsts, kept: Rc::default(), blocks }
     }
 
     /// Places of the columns of row `k`.
@@ -199,6 +220,12 @@ impl StoredRows {
         self.invert(k);
     }
 
+    /// Whether row `k` has blocks.
+    #[inline(always)]
+    pub fn is_stored(&self, k: usize) -> bool {
+        self.near.firsts[k] != NOWHERE
+    }
+
     /// Inverse of the diagonal block of row `k`.
     #[inline(always)]
     pub fn inverse(&self, k: usize) -> &Block {
@@ -276,11 +303,7 @@ impl StoredRows {
             None => &mut self.near.blocks[place - self.near.kept.len()],
             Some(place) => &mut self.far.blocks[place - self.far.kept.len()],
         };
-        for a in 0..2 {
-            for b in 0..2 {
-                sum[a][b] += block[a][b];
-            }
-        }
+        add(sum, block);
     }
 
     /// Whether row `k` has columns of other ranks.
@@ -308,17 +331,18 @@ impl StoredRows {
         &self.near.blocks_of(k)[self.near.at(k, self.nodes[k]) - self.near.firsts[k] as usize]
     }
 
-    /// Largest sum of magnitudes in a row.
+    /// Largest sum of magnitudes in a row that has blocks.
     pub fn norm_infinity(&self) -> f64 {
         let of_row = |k: usize, a: usize| -> f64 {
             self.near.couplings(k).chain(self.far.couplings(k)).map(|(_, block)| block[a][0].abs() + block[a][1].abs()).sum()
         };
-        (0..self.nodes.len()).map(|k| of_row(k, 0).max(of_row(k, 1))).fold(0.0, f64::max)
+        (0..self.nodes.len()).filter(|&k| self.is_stored(k)).map(|k| of_row(k, 0).max(of_row(k, 1))).fold(0.0, f64::max)
     }
 
     /// Blocks in all rows.
     pub fn block_count(&self) -> usize {
-        self.near.columns.len() + self.far.columns.len()
+        let count = |part: &Part| (0..self.nodes.len()).filter(|&k| self.is_stored(k)).map(|k| part.row(k).len()).sum::<usize>();
+        count(&self.near) + count(&self.far)
     }
 }
 

@@ -1,4 +1,5 @@
-//! All rows of a level as a sweep reads them: where none of them lies inside of an even macro triangle.
+//! All rows of a level as a sweep reads them: where none of them lies inside of an even macro triangle. Those that are not stored, of nodes
+//! among straight triangles, are made from these.
 //!
 //! A sweep through many rows waits for memory. The stiffness is symmetric, so the couplings of each row with later nodes are read
 //! alone: forward they take from these nodes, too, what the new value of the row does there, and what a symmetric sweep's forward half
@@ -12,12 +13,13 @@
 //! springs that are very much stiffer in one direction than the body would change it by more: then rows are read in double precision,
 //! too, from where they are stored, if none shares its blocks.
 
-use super::couplings::inverse;
+use super::couplings::{add, inverse, transpose};
 use super::lanes::Lanes;
 use super::registers::on_rows;
 use super::row_kernel::RowWork;
 use super::stored_rows::{Part, StoredRows};
-use crate::element::Block;
+use super::straight_triangles::StraightTriangles;
+use crate::element::{Block, PlaneLaw};
 
 /// Smallest part of a diagonal block's trace that its smaller eigenvalue may be. Rounding takes 3e-8 of the trace, three hundredths of
 /// an eigenvalue of this size; at a tenth of this value it would take a third of it, at ten times three thousandths.
@@ -69,19 +71,23 @@ impl SweepBlock for [f32; 4] {
 
 impl SweepRows {
     /// Of rows that are those of all nodes of this rank, in single precision if they may be and no node is held much more firmly in one
-    /// direction than in another; nothing if they are to be read in double precision and share blocks.
-    pub fn new(rows: &StoredRows, may_be_single: bool) -> Option<Self> {
+    /// direction than in another; nothing if they are to be read in double precision and share blocks. Those that are not stored
+    /// are made from the `straight` triangles, and are in single precision in any case.
+    pub fn new(rows: &StoredRows, straight: &StraightTriangles, may_be_single: bool) -> Option<Self> {
         let count = rows.nodes.len();
-        let (mut firsts, mut largest, mut is_single) = (Vec::with_capacity(count + 1), 0.0_f64, may_be_single);
+        let (mut firsts, mut largest, mut is_single) = (Vec::with_capacity(count + 1), straight.largest_modulus(), may_be_single);
         firsts.push(0);
         for k in 0..count {
             let columns = &rows.near.columns[rows.near.row(k)];
             let later = columns.iter().filter(|&&column| column > k as u32).count();
             firsts.push(firsts[k] + later as u32);
+            if !rows.is_stored(k) {
+                continue;
+            }
             let own = &rows.near.blocks_of(k)[columns.len() - later - 1];
             // No coupling of a positive definite matrix is larger than both diagonal entries beside it.
             largest = largest.max(own[0][0]).max(own[1][1]);
-            is_single &= is_even(own);
+            is_single &= is_even(own) || !straight.is_empty();
         }
         if !is_single && !rows.near.is_unshared() {
             return None;
@@ -95,29 +101,34 @@ impl SweepRows {
             sums: vec![[0.0; 2]; count],
             is_whole: false,
         };
-        sweep.refresh(rows, 0..count);
+        sweep.refresh(rows, (0..count).filter(|&k| rows.is_stored(k)));
+        let Self { firsts, blocks: Some(blocks), unit, inverses, .. } = &mut sweep else { return Some(sweep) };
+        straight.each_row(rows, |k, columns, row| {
+            let later = firsts[k] as usize..firsts[k + 1] as usize;
+            let at = row.len() - later.len();
+            // Rows with blocks take care of their own diagonals.
+            let mut give = |column: usize, lost: &Block| {
+                if !rows.is_stored(column) {
+                    add(&mut inverses[column], lost)
+                }
+            };
+            columns[at..]
+                .iter()
+                .zip(&row[at..])
+                .for_each(|(&column, block)| give(column as usize, &transpose(&lost(block, *unit))));
+            inverses[k] = take_over(row, &mut blocks[later], *unit, inverses[k]);
+        });
         Some(sweep)
     }
 
     /// Takes over the values of some rows.
     pub fn refresh(&mut self, rows: &StoredRows, changed: impl Iterator<Item = usize>) {
-        let scale = 1.0 / self.unit;
         let Some(blocks) = &mut self.blocks else {
             return changed.for_each(|k| self.inverses[k] = *rows.inverse(k));
         };
-        let single = |[[a, b], [c, d]]: &Block| [*a, *b, *c, *d].map(|value| (value * scale) as f32);
         for k in changed {
-            let later = self.firsts[k] as usize..self.firsts[k + 1] as usize;
-            let (others, all) = rows.near.blocks_of(k).split_at(rows.near.row(k).len() - later.len() - 1);
-            let (own, following) = all.split_first().expect("its own block");
-            following.iter().zip(&mut blocks[later]).for_each(|(block, kept)| *kept = single(block));
-            // Its own block is not rounded.
-            let mut diagonal = *own;
-            for block in others.iter().chain(following) {
-                let rounded = single(block).map(f64::from);
-                (0..4).for_each(|at| diagonal[at / 2][at % 2] += block[at / 2][at % 2] - rounded[at] * self.unit);
-            }
-            self.inverses[k] = inverse(&diagonal).expect("a stiffness has a diagonal");
+            let later = &mut blocks[self.firsts[k] as usize..self.firsts[k + 1] as usize];
+            self.inverses[k] = take_over(rows.near.blocks_of(k), later, self.unit, [[0.0; 2]; 2]);
         }
     }
 
@@ -165,6 +176,35 @@ impl SweepRows {
     fn halves<'a, B>(&'a self, Part { starts, columns, .. }: &'a Part, blocks: &'a [B]) -> HalfRows<'a, B> {
         HalfRows { starts, columns, firsts: &self.firsts, blocks, unit: self.unit, inverses: &self.inverses }
     }
+}
+
+/// Takes over a row, those of its blocks that follow its own one in single precision: the inverse of its diagonal block, to which
+/// what rounding takes from the others is given, and what it has taken from couplings that the row does not have.
+fn take_over(row: &[Block], later: &mut [[f32; 4]], unit: f64, taken: Block) -> Block {
+    let (others, all) = row.split_at(row.len() - later.len() - 1);
+    // Its own block is not rounded.
+    let (own, following) = all.split_first().expect("its own block");
+    following.iter().zip(later).for_each(|(block, kept)| *kept = single(block, unit));
+    let mut diagonal = *own;
+    add(&mut diagonal, &taken);
+    others.iter().chain(following).for_each(|block| add(&mut diagonal, &lost(block, unit)));
+    inverse(&diagonal).expect("a stiffness has a diagonal")
+}
+
+fn single([[a, b], [c, d]]: &Block, unit: f64) -> [f32; 4] {
+    [*a, *b, *c, *d].map(|value| (value / unit) as f32)
+}
+
+/// What rounding takes from a block.
+fn lost(block: &Block, unit: f64) -> Block {
+    let rounded = single(block, unit).block();
+    std::array::from_fn(|i| std::array::from_fn(|j| block[i][j] - rounded[i][j] * unit))
+}
+
+/// Whether a body with this law holds all nodes so inside, whatever the triangles: of each gradient `g` a diagonal block has
+/// `(λ + μ) g ⊗ g + μ |g|² I`, where the smaller eigenvalue is this part of the trace.
+pub fn holds_evenly(law: &PlaneLaw) -> bool {
+    law.mu > LEAST * (law.lambda + 3.0 * law.mu)
 }
 
 /// Whether a node with this diagonal block is not held much more firmly in one direction than in another.

@@ -181,15 +181,12 @@ impl SaddlePoint {
     pub fn stored_nest(&self, session: &Session) -> Result<Option<Matrix>, SystemError> {
         let blocks = &self.multipliers;
         let expanded = self.finest_stiffness().expanded(session)?;
-        let stored = match &expanded {
-            Some(stiffness) => Some(Matrix::nest(session, [[stiffness, &blocks.transpose], [&blocks.coupling, &blocks.corner]])?),
-            None => None,
-        };
         if blocks.scale.is_empty() {
             // Of a nest whose other blocks are empty PETSc takes the whole nest for `K`.
-            return Ok(Some(stored.as_ref().unwrap_or(&self.nest).convert_aij()?));
+            return Ok(Some(expanded.map_or_else(|| self.finest_stiffness().operator().convert_aij(), Ok)?));
         }
-        Ok(stored)
+        let nest = |stiffness| Matrix::nest(session, [[stiffness, &blocks.transpose], [&blocks.coupling, &blocks.corner]]);
+        Ok(expanded.as_ref().map(nest).transpose()?)
     }
 
     /// `K + Bᵀ D B` on the finest level.

@@ -74,7 +74,7 @@ pub struct MultiplierBlocks {
 
 impl MultiplierBlocks {
     /// Empty blocks with exact preallocation; `rows` are those of `B` on the finest level, `all` are the weights of all
-    /// multipliers. The plain form, and a system without multipliers, are made into one matrix, so that all entries are wanted.
+    /// multipliers. The plain form is made into one matrix, so that all entries are wanted.
     /// **Collective**
     pub fn new(
         problem: &Discretisation,
@@ -100,7 +100,7 @@ impl MultiplierBlocks {
             let column = corrected(rows, all, &jumps, j);
             column.iter().map(|(node, _)| *node).filter(|node| space.own.contains(node)).collect()
         };
-        let is_stored = form == Form::Plain || owners.is_empty() || problem.jumps().next().is_some();
+        let is_stored = form == Form::Plain || problem.jumps().next().is_some();
         let columns: Vec<Vec<usize>> = if is_stored { (0..owners.len()).map(own_nodes).collect() } else { Vec::new() };
         let corner = if problem.jumps().next().is_some() { SchurPattern::Mixed } else { SchurPattern::Diagonal };
         let coupling = coupling_matrix(rows, &own, space, session)?;

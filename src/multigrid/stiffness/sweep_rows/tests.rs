@@ -21,7 +21,7 @@ fn all_rows() -> Vec<(StoredRows, usize)> {
         scene.partition = Rc::new(Partition::new(&scene.mesh, &owners, ranks));
         for rank in 0..ranks {
             let space = spaces(&scene, rank).expect("a small mesh").pop().expect("a finest level");
-            let assembly = Assembly::new(&scene, &space, true, rank);
+            let assembly = Assembly::new(&scene, &space, false, rank);
             let Assembled { rows, far, .. } = assembly.assemble(&Default::default(), |_, _| ()).expect("good triangles");
             assert_eq!(rows.nodes.len(), space.own.len());
             found.push((rows, far.len()));
@@ -45,7 +45,8 @@ fn check(found: &[[f64; 2]], exact: &[[f64; 2]], size: f64, precision: f64) {
 fn sweeps_and_residuals_are_those_of_the_rows_to_their_precision() {
     let mut with_others = 0;
     for ((rows, others), is_single) in all_rows().into_iter().flat_map(|rows| [(rows.clone(), true), (rows, false)]) {
-        let (count, mut sweep) = (rows.nodes.len(), SweepRows::new(&rows, is_single).expect("they share nothing"));
+        let (count, mut sweep) =
+            (rows.nodes.len(), SweepRows::new(&rows, &Default::default(), is_single).expect("they share nothing"));
         let check =
             |found: &[[f64; 2]], exact: &[[f64; 2]], size: f64| check(found, exact, size, if is_single { 1e-5 } else { 1e-13 });
         with_others += sweep.far.len();
@@ -76,7 +77,7 @@ fn sweeps_and_residuals_are_those_of_the_rows_to_their_precision() {
 #[test]
 fn a_translation_keeps_its_forces_to_the_last_digit() {
     for (rows, _) in all_rows() {
-        let sweep = SweepRows::new(&rows, true).expect("rows of all nodes");
+        let sweep = SweepRows::new(&rows, &Default::default(), true).expect("rows of all nodes");
         let halves = sweep.halves(&rows.near, sweep.blocks.as_ref().expect("single precision"));
         let mut sums: Vec<Block> = sweep.inverses.iter().map(|own| inverse(own).expect("an inverse has one")).collect();
         for k in 0..rows.nodes.len() {
@@ -106,7 +107,7 @@ fn units_and_changed_rows_are_followed() {
         let (mut rows, others) = all_rows().swap_remove(0);
         rows.near.blocks.as_flattened_mut().as_flattened_mut().iter_mut().for_each(|value| *value *= factor);
         (0..rows.nodes.len()).for_each(|k| rows.invert(k));
-        let (count, mut sweep) = (rows.nodes.len(), SweepRows::new(&rows, true).expect("rows of all nodes"));
+        let (count, mut sweep) = (rows.nodes.len(), SweepRows::new(&rows, &Default::default(), true).expect("rows of all nodes"));
         let b: Vec<[f64; 2]> = vector(count, 3).into_iter().map(|b| b.map(|b| b * factor)).collect();
         // A support under one node, much stiffer than the body.
         let (changed, stiff) = (count / 2, 1e3 * factor);
@@ -119,11 +120,11 @@ fn units_and_changed_rows_are_followed() {
         rows.backward(0..count, &b, &mut exact, &far);
         check(&x, &exact, largest(&exact), 1e-5);
         assert!(largest(&x[changed..=changed]) < 0.05 * largest(&x), "it is held");
-        assert!(SweepRows::new(&rows, true).is_some_and(|sweep| sweep.blocks.is_some()));
+        assert!(SweepRows::new(&rows, &Default::default(), true).is_some_and(|sweep| sweep.blocks.is_some()));
         // Springs along an inclined line.
         let spring = 1e8 * rows.diagonal(0)[0][0];
         rows.add(0, BlockColumn::Near(0), &[[0.36 * spring, 0.48 * spring], [0.48 * spring, 0.64 * spring]]);
-        let sweep = SweepRows::new(&rows, true).expect("they share nothing");
+        let sweep = SweepRows::new(&rows, &Default::default(), true).expect("they share nothing");
         assert!(sweep.blocks.is_none(), "single precision would lose the body beside the spring");
     }
 }
