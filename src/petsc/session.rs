@@ -125,11 +125,6 @@ impl Session {
         self.0.world.size() as usize
     }
 
-    /// Waits for all ranks. **Collective**
-    pub fn barrier(&self) {
-        self.0.world.barrier();
-    }
-
     /// Ends all ranks at once with this exit code.
     pub fn abort(&self, code: i32) -> ! {
         the_end_is_ours(false);

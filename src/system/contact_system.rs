@@ -239,15 +239,14 @@ impl<'a> System<'a> {
     /// Largest displacement of a node along an axis of its frame (length). **Collective**
     pub fn largest_displacement(&self) -> f64 {
         let larger = |most: f64, value: &f64| most.max(value.abs());
-        let mut most = [if self.border.is_none() {
+        let own = if self.border.is_none() {
             let of_supports = self.space().constraints.iter().filter(|(node, _)| self.space().own.contains(node));
             let fixed = of_supports.flat_map(|(_, of)| of.fixed.iter().zip(&of.value).filter(|(fixed, _)| **fixed));
             fixed.map(|(_, value)| value).fold(self.with_free_displacement(|u| u.iter().fold(0.0, larger)), larger)
         } else {
             self.displacement().iter().fold(0.0, larger)
-        }];
-        self.session.max(&mut most);
-        most[0]
+        };
+        self.session.max([own])[0]
     }
 
     /// `λ_i = s_i λ̂_i` of all multipliers (stress). **Collective**

@@ -119,7 +119,6 @@ fn expanded_even_triangles_are_the_stored_matrix(session: &Session) {
         let [whole, stored] = both(&problem, session);
         let expanded = whole.stiffness.last().expect("levels").expanded(session).expect("a matrix").expect("not stored");
         let stored = finest(&stored);
-        assert_eq!(expanded.nonzeros().expect("counted"), stored.nonzeros().expect("counted"));
         let x = erratic(&problem, stored, 0.1);
         assert!(apart(product(&expanded, &x), &product(stored, &x)) < 1e-14);
     }

@@ -63,9 +63,7 @@ impl BorderBlocks {
             BorderUnknown::Motion(j) => self.column(*j).map_or(0.0, |column| dot(&column.balance, lambda)),
             BorderUnknown::Mean(_) => 0.0,
         };
-        let mut sums: Vec<f64> = unknowns.iter().map(row).collect();
-        self.session.sum(&mut sums);
-        sums
+        self.session.sum(unknowns.iter().map(row).collect())
     }
 
     fn column(&self, component: usize) -> Option<&BorderColumn> {
@@ -164,8 +162,7 @@ impl BorderBlocks {
         let (mut left, sums) = (self.right_hand_side(loads, asked, gap), self.sums(x));
         left.motion.iter_mut().zip(sums.motion).for_each(|(left, sum)| *left -= sum);
         let mean = |component: &RigidComponent| component.mean.as_ref().map_or(0.0, |mean| dot(mean, &x[..self.unknowns]));
-        let mut means: Vec<f64> = self.border.components.iter().map(mean).collect();
-        self.session.sum(&mut means);
+        let means: Vec<f64> = self.session.sum(self.border.components.iter().map(mean).collect());
         left.mean.iter_mut().zip(means).for_each(|(left, mean)| *left -= mean);
         let (mut found, arms) = (self.pivot(&left).motion, self.arms());
         let kept = &self.untold * DVector::from_fn(arms.len(), |j, _| before[j] * arms[j]);

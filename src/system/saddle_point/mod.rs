@@ -331,6 +331,5 @@ fn moved_gap(problem: &Discretisation, session: &Session) -> Vec<f64> {
     let prescribed = |coupled: &Coupled| coupled.value.dot(&space.prescribed(coupled.node.number(mesh, &space.numbering)));
     let mut moved = vec![0.0; coupling.gap.len()];
     coupling.own(0..moved.len(), session.rank()).for_each(|i| moved[i] = coupling.rows[i].iter().map(prescribed).sum());
-    session.sum(&mut moved);
-    coupling.gap.iter().zip(moved).map(|(c, moved)| c - moved).collect()
+    coupling.gap.iter().zip(session.sum(moved)).map(|(c, moved)| c - moved).collect()
 }
