@@ -347,6 +347,12 @@ impl MacroMesh {
         self.edges[edge as usize].vertices.map(|vertex| self.vertices[vertex as usize])
     }
 
+    /// The point on the chord of a macro edge that is nearest to a point.
+    pub fn foot_on_chord(&self, edge: u32, x: Point) -> Point {
+        let [a, b] = self.edge_ends(edge);
+        a + ((x - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0) * (b - a)
+    }
+
     /// Straight length of a macro edge.
     pub fn edge_length(&self, edge: u32) -> f64 {
         let [a, b] = self.edges[edge as usize].vertices;

@@ -59,6 +59,7 @@ mod edges;
 mod faults;
 mod file;
 mod file_place;
+mod kept;
 pub mod lattice;
 mod levels;
 mod located;

@@ -37,10 +37,7 @@ impl MacroMesh {
     fn bend_edge(&mut self, geometry: &str, edge: u32, curve: &Arc<Curve>) -> Result<(), MeshError> {
         let ends = self.edges[edge as usize].vertices;
         let length = self.edge_length(edge);
-        let mut range = ends.map(|vertex| curve.nearest(self.vertices[vertex as usize]));
-        if let Some(period) = curve.period() {
-            range[1] = range[0] + (range[1] - range[0] + 0.5 * period).rem_euclid(period) - 0.5 * period;
-        }
+        let range = self.range_on(curve, ends);
         for (vertex, t) in ends.into_iter().zip(range) {
             let here = self.vertices[vertex as usize];
             let there = self.kept_on_axis(here, curve.point(t));
@@ -65,6 +62,13 @@ impl MacroMesh {
         }
         self.edges[edge as usize].shape = (!curve.is_line()).then(|| EdgeShape { curve: curve.clone(), range });
         Ok(())
+    }
+
+    /// Parameters of a curve where it is nearest to two vertices; of a closed one no farther apart than half of it.
+    pub(super) fn range_on(&self, curve: &Curve, ends: [u32; 2]) -> [f64; 2] {
+        let [from, to] = ends.map(|vertex| curve.nearest(self.vertices[vertex as usize]));
+        let near = |period: f64| from + (to - from + 0.5 * period).rem_euclid(period) - 0.5 * period;
+        [from, curve.period().map_or(to, near)]
     }
 
     /// Whether an edge of the macro triangle is bent, so that its triangles differ from one another.

@@ -1,6 +1,6 @@
 //! Writer of Gmsh 4.1 ASCII files.
 
-use crate::geometry::Point;
+use crate::geometry::{Point, bounds};
 use crate::mesh::macro_mesh::{Boundary, MacroMesh, MacroTriangle};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -35,20 +35,15 @@ impl MacroMesh {
     fn entities(&self) -> String {
         let mut text = format!("0 {} {} 0\n", self.curves().count(), self.parts.len());
         for (place, boundary) in self.curves().enumerate() {
-            let ends = boundary.edges.iter().flat_map(|&edge| self.edges[edge as usize].vertices);
-            entity(&mut text, place + 1, self.box_around(ends));
+            let ends = boundary.edges.iter().flat_map(|&edge| self.edge_ends(edge));
+            entity(&mut text, place + 1, bounds(ends));
         }
         for part in 0..self.parts.len() {
             let own = self.triangles.iter().filter(|triangle| triangle.part as usize == part);
-            entity(&mut text, part + 1, self.box_around(own.flat_map(|triangle| triangle.vertices)));
+            let corners = own.flat_map(|triangle| triangle.vertices.map(|vertex| self.vertices[vertex as usize]));
+            entity(&mut text, part + 1, bounds(corners));
         }
         text
-    }
-
-    /// Lower left and upper right corner of the box around some vertices.
-    fn box_around(&self, vertices: impl Iterator<Item = u32>) -> [Point; 2] {
-        let places = vertices.map(|vertex| self.vertices[vertex as usize]);
-        places.map(|x| [x, x]).reduce(|[low, high], [x, _]| [low.inf(&x), high.sup(&x)]).unwrap_or_default()
     }
 
     /// Boundaries, then curves between parts.

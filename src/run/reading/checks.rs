@@ -19,16 +19,14 @@ const MOST_APART: f64 = 1e60;
 /// # Errors
 /// Words that begin with the key, and tell the remedy.
 pub fn check_moduli(case: &Case) -> Result<(), String> {
-    let bodies = case.bodies.iter().filter(|body| case.tool_of(&body.name).is_none());
     let young = |part: &BodyPart| part.material.young;
-    let parts: Vec<(&Body, &BodyPart)> = bodies.flat_map(|body| body.parts.iter().map(move |part| (body, part))).collect();
+    let parts: Vec<(&Body, &BodyPart)> = case.parts().collect();
     let hardest = parts.iter().map(|(_, part)| young(part)).fold(0.0, f64::max);
     match parts.iter().find(|(_, part)| hardest / young(part) > MOST_APART) {
         None => Ok(()),
         Some((body, part)) => Err(format!(
-            "body.{}{}: young = {:e} beside {hardest:e}: there is no computing with both; take a rigid tool for what is so hard, or leave out what is so soft",
-            body.name,
-            if body.has_parts() { format!(".part.{}", part.name) } else { String::new() },
+            "{}: young = {:e} beside {hardest:e}: there is no computing with both; take a rigid tool for what is so hard, or leave out what is so soft",
+            body.key_of(part),
             young(part)
         )),
     }
@@ -160,9 +158,7 @@ fn check_points(case: &Case, mesh: &MacroMesh, exact: &ContactExact) -> Result<(
 /// The nearest point on the chords of some edges, and how far it is.
 fn nearest(mesh: &MacroMesh, edges: &[u32], x: Point) -> Option<(Point, f64)> {
     let on_edge = |&edge: &u32| {
-        let [a, b] = mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
-        let share = ((x - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
-        let foot = a + share * (b - a);
+        let foot = mesh.foot_on_chord(edge, x);
         (foot, (x - foot).norm())
     };
     edges.iter().map(on_edge).min_by(|a, b| a.1.total_cmp(&b.1))
