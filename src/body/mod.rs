@@ -113,6 +113,11 @@ impl Body {
     pub fn has_parts(&self) -> bool {
         self.parts.iter().any(|part| part.name != self.name)
     }
+
+    /// What the case calls one of its parts.
+    pub fn key_of(&self, part: &BodyPart) -> String {
+        if part.name == self.name { format!("body.{}", self.name) } else { format!("body.{}.part.{}", self.name, part.name) }
+    }
 }
 
 /// Prescribed displacement components on physical curves, or at a point.

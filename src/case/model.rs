@@ -17,7 +17,7 @@ use super::bodies::mesh::MeshChoice;
 use super::contact::sides::{Union, parts};
 use super::patterns::Matched;
 use crate::accuracy::Accuracy;
-use crate::body::{Body, Load, MeanHold, PointLoad, RigidSet, Springs, Support};
+use crate::body::{Body, BodyPart, Load, MeanHold, PointLoad, RigidSet, Springs, Support};
 use crate::contact::Pair;
 use crate::element::Plane;
 use crate::geometry::Point;
@@ -133,6 +133,11 @@ impl Case {
     /// The physical curves of a side of a contact, from its name.
     pub fn curves_of(&self, side: &String) -> Vec<String> {
         parts(&self.unions, side)
+    }
+
+    /// The parts of all bodies, each with its body.
+    pub fn parts(&self) -> impl Iterator<Item = (&Body, &BodyPart)> {
+        self.bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (body, part)))
     }
 
     /// The bodies whose mean motion is held, on the first mesh of the case.

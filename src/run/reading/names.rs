@@ -149,10 +149,7 @@ pub fn unknown_part(case: &Case, bytes: &[u8]) -> Option<String> {
 
 /// The physical surfaces of a body: the key of each in the case, and its name.
 fn surfaces_of(body: &Body) -> impl Iterator<Item = (String, &String)> {
-    body.parts.iter().map(move |part| match part.name == body.name {
-        true => (format!("body.{}", body.name), &part.name),
-        false => (format!("body.{}.part.{}", body.name, part.name), &part.name),
-    })
+    body.parts.iter().map(move |part| (body.key_of(part), &part.name))
 }
 
 /// What a mesh has instead of a name that it has not.

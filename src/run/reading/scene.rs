@@ -114,7 +114,7 @@ fn add_tools(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
 
 /// The body of each physical surface that is a part of one.
 fn joined(case: &Case) -> HashMap<String, String> {
-    let parts = case.bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (&part.name, &body.name)));
+    let parts = case.parts().map(|(body, part)| (&part.name, &body.name));
     parts.filter(|(part, body)| part != body).map(|(part, body)| (part.clone(), body.clone())).collect()
 }
 
@@ -200,14 +200,12 @@ fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
 
 /// A temperature has a value at every vertex of what it heats, where stresses are shown.
 fn check_temperatures(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
-    let parts = case.bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (body, part)));
-    for (body, part) in parts {
+    for (body, part) in case.parts() {
         let Some(heat) = &part.heat else { continue };
-        let key = if body.has_parts() { format!("{}.part.{}", body.name, part.name) } else { body.name.clone() };
         let own = mesh.triangles.iter().filter(|triangle| mesh.parts[triangle.part as usize].name == part.name);
         for vertex in own.flat_map(|triangle| triangle.vertices) {
             let value = heat.temperature.finite_value(mesh.vertices[vertex as usize]);
-            value.map_err(|words| format!("body.{key}.temperature: {words}"))?;
+            value.map_err(|words| format!("{}.temperature: {words}", body.key_of(part)))?;
         }
     }
     Ok(())
