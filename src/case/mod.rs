@@ -43,6 +43,7 @@ pub use file::error::{CaseError, Problem};
 pub use file::fingerprint::{Inputs, fingerprint, sha256};
 pub(crate) use file::text::{name_of, read_text};
 pub(crate) use file::{error, overrides};
+pub use keys::Choice;
 pub(crate) use keys::{section, values};
 pub use model::{Case, LoadStep};
 pub use patterns::Matched;

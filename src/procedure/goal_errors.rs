@@ -120,8 +120,7 @@ impl Procedure<'_> {
         let points = trace_points(problem, &pressure, &u, self.session)?;
         let zones = pressure.zones();
         let all = estimate.of_zones(at, &pressure, &zones, &points);
-        let counting = all.iter().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts);
-        let errors: Option<Vec<f64>> = counting.map(|((zone, _), _)| zone.pressure).collect();
+        let errors: Option<Vec<f64>> = pressure.counting(&zones, &all).map(|(zone, _)| zone.pressure).collect();
         if zones.is_empty() {
             // Where nothing presses, the force is all that there is to know of λ.
             return Ok(estimate.force.get(at).copied().flatten());
@@ -156,8 +155,7 @@ impl Procedure<'_> {
             least / pressure.peak_of(zone)
         };
         let zones = pressure.zones();
-        let counting = zones.iter().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts);
-        let Some(smallest) = counting.map(|(zone, _)| smallest(zone)).reduce(f64::min) else { return Ok(true) };
+        let Some(smallest) = pressure.counting(&zones, &zones).map(smallest).reduce(f64::min) else { return Ok(true) };
         Ok(self.pressure_error(solved, at)?.is_some_and(|error| error < smallest.min(MOST_UNKNOWN)))
     }
 

@@ -67,8 +67,8 @@ pub struct Contact {
 impl Contact {
     /// Whether Γ_C ends where a body does, at its first end and at its last.
     pub fn ends_with_a_body(&self) -> [bool; 2] {
-        let knots = self.boundary.knots();
-        [knots[0] <= self.limits[0], knots[knots.len() - 1] >= self.limits[1]]
+        let [first, last] = self.boundary.ends();
+        [first <= self.limits[0], last >= self.limits[1]]
     }
 
     /// `E_c` at an arc length of Γ_C (stress).
@@ -150,9 +150,7 @@ impl Contact {
         };
         let measured = matches!(pair.gap, GapChoice::Geometry);
         let shapes = measured.then(|| sides.each_ref().map(|edges| scene.mesh.smooth_curves(edges)));
-        let knots = boundary.knots();
-        let ends = Some([knots[0], knots[knots.len() - 1]]);
-        let segments = Some(boundary.segments());
+        let (ends, segments) = (Some(boundary.ends()), Some(boundary.segments()));
         Ok(Self {
             pair: pair.clone(),
             known: Known { meeting: placed.meeting, ends, segments, coarser: known.coarser, touch: known.touch },
@@ -214,8 +212,7 @@ impl Contact {
 
     /// Both ends of Γ_C, as well as they are known.
     pub fn ends(&self) -> [Point; 2] {
-        let knots = self.boundary.knots();
-        self.found.unwrap_or_else(|| [knots[0], knots[knots.len() - 1]].map(|t| self.boundary.point(t)))
+        self.found.unwrap_or_else(|| self.boundary.ends().map(|t| self.boundary.point(t)))
     }
 
     /// Numbers of its multipliers.

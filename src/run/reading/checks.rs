@@ -5,7 +5,7 @@ use crate::body::{Body, BodyPart, HeldMode, MeanHold, Springs, Support, rigid_di
 use crate::case::{BodyExact, Case, ContactExact, ExpectedAt, LambdaExact};
 use crate::contact::ContactBoundary;
 use crate::discretisation::Contact;
-use crate::geometry::{Coordinates, Formula, Point, Rounded, gauss_points};
+use crate::geometry::{Coordinates, Formula, Point, Rounded};
 use crate::mesh::MacroMesh;
 
 /// A motion that moves a supported point, in the direction of the support, by less than this share of itself leaves it at rest.
@@ -207,7 +207,5 @@ pub fn has_values(formula: &Formula, boundary: &ContactBoundary) -> Result<(), S
     if formula.as_constant().is_some() {
         return Ok(());
     }
-    let places =
-        boundary.knots().windows(2).flat_map(|ends| gauss_points(8).iter().map(|(z, _)| ends[0] + z * (ends[1] - ends[0])));
-    places.into_iter().try_for_each(|t| formula.finite_value(boundary.point(t)).map(|_| ()))
+    boundary.gauss_by_parameter(8).try_for_each(|(_, _, t, _)| formula.finite_value(boundary.point(t)).map(|_| ()))
 }

@@ -1,7 +1,7 @@
 //! What each zone of a contact that presses is, and what is estimated of its pressure.
 
-use crate::contact::{Zone, zone_counts};
-use crate::discretisation::Contact;
+use crate::contact::Zone;
+use crate::discretisation::ContactPressure;
 use crate::output::summary::{ContactEstimate, ZoneSummary};
 use crate::procedure::Solved;
 use crate::recovery::TracePoint;
@@ -17,21 +17,15 @@ pub struct Zones<'a> {
     at: usize,
     /// Traces of the contact.
     points: &'a [TracePoint],
-    contact: &'a Contact,
+    pressure: ContactPressure<'a>,
     zones: Vec<Zone>,
-    forces: Vec<f64>,
-    peaks: Vec<f64>,
 }
 
 impl<'a> Zones<'a> {
     /// The zones of contact `at`; `points` are its traces.
     pub fn new(solved: &'a Solved, at: usize, points: &'a [TracePoint]) -> Self {
-        let contact = &solved.problem.contacts[at];
-        let pressure = solved.solution.pressure(contact);
-        let zones = pressure.zones();
-        let forces = zones.iter().map(|zone| pressure.force_of(zone)).collect();
-        let peaks = zones.iter().map(|zone| pressure.peak_of(zone)).collect();
-        Self { solved, at, points, contact, zones, forces, peaks }
+        let pressure = solved.solution.pressure(&solved.problem.contacts[at]);
+        Self { solved, at, points, zones: pressure.zones(), pressure }
     }
 
     /// Arc lengths of their ends; on a closed boundary they may go on beyond its seam.
@@ -48,27 +42,18 @@ impl<'a> Zones<'a> {
 
     /// Most edges of the softer body on a zone.
     pub fn closed_edges(&self) -> Option<f64> {
-        self.zones.iter().map(|zone| self.contact.edges_on(zone)).reduce(f64::max)
-    }
-
-    /// Shares of the force of the contact.
-    fn shares(&self) -> impl Iterator<Item = f64> {
-        let whole: f64 = self.forces.iter().map(|force| force.abs()).sum();
-        self.forces.iter().map(move |force| force / whole)
+        self.zones.iter().map(|zone| self.pressure.contact.edges_on(zone)).reduce(f64::max)
     }
 
     /// Arcs of the zones that anyone would look at.
     pub fn counting(&self) -> Vec<[f64; 2]> {
-        let highest = self.peaks.iter().copied().fold(0.0, f64::max);
-        let figures = self.shares().zip(&self.peaks).zip(self.arcs());
-        figures.filter(|((share, peak), _)| zone_counts(*share, **peak, highest)).map(|(_, arcs)| arcs).collect()
+        self.pressure.counting(&self.zones, self.arcs()).collect()
     }
 
     /// Each zone as the summary has it; `corner_error` is what corners within the contact do to λ.
     pub fn summaries(&self, corner_error: Option<f64>) -> Vec<ZoneSummary> {
-        let Self { solved: Solved { problem, solution, estimate, .. }, contact, zones, points, .. } = self;
-        let pressure = solution.pressure(contact);
-        let estimates = estimate.of_zones(self.at, &pressure, zones, points);
+        let Self { solved: Solved { problem, estimate, .. }, pressure, zones, points, .. } = self;
+        let (contact, estimates) = (pressure.contact, estimate.of_zones(self.at, pressure, zones, points));
         // Meshes that adapt are refined there by more than one half, or by nothing.
         let goes_on = if self.solved.adaptation.is_none() { estimate.peaks_go_on(self.at) } else { Vec::new() };
         let describe = |(k, share): (usize, f64)| {
@@ -89,7 +74,7 @@ impl<'a> Zones<'a> {
                 segments: Some(contact.segments_on(zone)),
                 share: Some(share),
                 hertz_width: pressure.hertz_width(zone, points),
-                pressure_max: Some(self.peaks[k]),
+                pressure_max: Some(pressure.peak_of(zone)),
                 lambda: found.pressure.filter(tells),
                 whole: found.inside.filter(tells),
                 worst: found.worst,
@@ -103,7 +88,7 @@ impl<'a> Zones<'a> {
                 corner: Some((0..2).any(|end| pressure.ends_at_a_corner(&problem.scene.mesh, zone, end))),
             }
         };
-        self.shares().enumerate().map(describe).collect()
+        pressure.shares(zones).into_iter().enumerate().map(describe).collect()
     }
 }
 
