@@ -80,7 +80,7 @@ pub use curved::{BoundaryVertex, Corner, SmoothNormals, SmoothPoint};
 pub use each_once::each_once;
 pub use edge_shape::EdgeShape;
 pub use faults::Slit;
-pub use file::{parse_gmsh, parse_joined, read_bytes, read_gmsh, read_regular, surfaces, touching_surfaces};
+pub use file::{parse_gmsh, read_bytes, read_regular, surfaces, touching_surfaces};
 pub use file_place::FilePlace;
 pub use levels::{BoundaryEdge, EdgeNode, Level, Numbering, Shapes, TriangleNumbers, levels};
 pub use loose_curve::LooseCurve;

@@ -152,7 +152,7 @@ impl<'a> System<'a> {
         self.bring_solver_up_to_date()?;
         let loads = self.border.as_ref().map(|border| border.loads_of(self.space(), load, &self.session)).unwrap_or_default();
         let given = [loads, vec![0.0; self.motion.len()]];
-        let b = self.blocks.right_hand_side_of(load, gap, &given, self.space())?;
+        let b = self.blocks.right_hand_side_of(|values| values.copy_from_slice(load), gap, &given, self.space())?;
         let mut x = self.unknowns.duplicate()?;
         x.set(0.0)?;
         self.solver.solve(&self.blocks, &b, &mut x, None, tolerance)?;

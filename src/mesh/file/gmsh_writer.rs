@@ -152,15 +152,20 @@ fn line(text: &mut String, words: std::fmt::Arguments) {
 mod tests {
     use super::*;
     use crate::geometry::Curve;
-    use crate::mesh::file::gmsh::{parse_gmsh, read_gmsh};
+    use crate::mesh::file::gmsh::{parse_gmsh, read_bytes};
     use std::path::Path;
 
+    fn mesh_of(file: &str) -> MacroMesh {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+        parse_gmsh(&read_bytes(&file).expect("a file"), &file, Default::default()).expect("a mesh")
+    }
+
     fn case_mesh(file: &str) -> MacroMesh {
-        read_gmsh(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(file)).expect("a mesh")
+        mesh_of(&format!("cases/{file}"))
     }
 
     fn again(mesh: &MacroMesh) -> MacroMesh {
-        parse_gmsh(mesh.to_gmsh().as_bytes(), Path::new("again.msh")).expect("our own reader reads it")
+        parse_gmsh(mesh.to_gmsh().as_bytes(), Path::new("again.msh"), Default::default()).expect("our own reader reads it")
     }
 
     /// Everything but the file and the shapes of edges, to the last digit.
@@ -234,8 +239,7 @@ mod tests {
     /// A circle of midside nodes is the same circle again, also after bisection.
     #[test]
     fn midside_nodes_bend_it_again() {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes/disc_4.1_order2_ascii.msh");
-        let mut mesh = read_gmsh(&file).expect("a mesh");
+        let mut mesh = mesh_of("tests/meshes/disc_4.1_order2_ascii.msh");
         for _ in 0..2 {
             let read = again(&mesh);
             assert_eq!(content(&read), content(&mesh));
