@@ -13,7 +13,7 @@ mod singular_place;
 mod springs;
 
 pub use applied_force::{Applied, applied_forces, body_forces, heat_forces};
-pub use constraint::{Constraint, Constraints, SupportError};
+pub use constraint::{Constraint, Constraints};
 pub use folding::check_folding;
 pub use formula_check::{check_body_forces, check_loads, varies};
 pub use holders::Holders;

@@ -61,7 +61,7 @@ impl HeldBodies {
             }
             add_triangle(triangle, hold)
         });
-        session.agree(added.map_err(SystemError::from)).map_err(SystemError::Case)?;
+        session.agree(added.map_err(SystemError::from))?;
         let nodes = places.into_iter().map(|(node, (hold, x))| (node, hold, x)).collect();
         let (all, inverses, asked, off) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut bodies = Self { about, nodes, moments: moments.sum(session), off, all, inverses, asked };

@@ -25,8 +25,7 @@ impl Space {
     /// [`SystemError::Case`] if supports contradict each other.
     pub fn new(scene: &Scene, level: Level, partition: &Rc<Partition>, rank: usize) -> Result<Self, SystemError> {
         let numbering = Numbering::new(level, partition);
-        let constraints = Constraints::new(&scene.mesh, &numbering, &scene.supports, &scene.means, &scene.rigid);
-        let constraints = constraints.map_err(|e| SystemError::Case(e.0))?;
+        let constraints = Constraints::new(&scene.mesh, &numbering, &scene.supports, &scene.means, &scene.rigid)?;
         let own = numbering.range(rank);
         Ok(Self { numbering, constraints, own })
     }

@@ -129,7 +129,8 @@ impl Contact {
         let bodies = [0, 1].map(|k: usize| scene.mesh.body_beside(sides[k][0]));
         let materials = SideMaterials::new(scene, &sides);
         let young = materials.ruling();
-        let placed = place(&scene.mesh, numbering, pair, young, known, displacement)?;
+        let placed = place(&scene.mesh, numbering, pair, young, known, displacement)
+            .map_err(|words| format!("contact.{}: {words}", pair.name))?;
         let (boundary, all) = (placed.boundary, placed.edges);
         let own = |edge: &&BoundaryEdge| scene.partition.owner(edge.triangle as u32) == rank;
         let edges = all.each_ref().map(|edges| edges.iter().filter(own).cloned().collect());
