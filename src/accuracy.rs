@@ -14,7 +14,7 @@ const CARRIES_NOTHING: f64 = 1e-4;
 pub struct ProbePoint {
     /// Name in the case.
     pub name: String,
-    /// Name of the body.
+    /// Name of the body, or of a part of one; two of them may touch there.
     pub body: String,
     /// Where (length).
     pub point: Point,

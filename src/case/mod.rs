@@ -31,7 +31,7 @@ pub use acting::mean::{MeanSupport, MeanWay};
 pub use acting::rigid::{Plate, Tool};
 pub use asked::accuracy::NO_CONTACT;
 pub use asked::exact::{BodyExact, ContactExact, Exact, Expected, ExpectedAt, LambdaExact};
-pub use asked::output::{Output, Probe, UnitNames};
+pub use asked::output::{Output, UnitNames};
 pub use asked::solver::Solver;
 pub use asked::steps::LoadFactor;
 pub use bodies::geometry::Geometry;

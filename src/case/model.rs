@@ -9,14 +9,14 @@ use toml::{Table, Value};
 use super::acting::mean::MeanSupport;
 use super::acting::rigid::{PREFIX, Plate, Tool};
 use super::asked::exact::Exact;
-use super::asked::output::{Output, Probe, UnitNames};
+use super::asked::output::{Output, UnitNames};
 use super::asked::solver::Solver;
 use super::asked::steps::LoadFactor;
 use super::bodies::geometry::Geometry;
 use super::bodies::mesh::MeshChoice;
 use super::contact::sides::{Union, parts};
 use super::patterns::Matched;
-use crate::accuracy::Accuracy;
+use crate::accuracy::{Accuracy, ProbePoint};
 use crate::body::{Body, BodyPart, Load, MeanHold, PointLoad, RigidSet, Springs, Support};
 use crate::contact::Pair;
 use crate::element::Plane;
@@ -79,7 +79,7 @@ pub struct Case {
     /// What is written of the result.
     pub output: Output,
     /// Points to report.
-    pub probes: Vec<Probe>,
+    pub probes: Vec<ProbePoint>,
     /// Exact or reference values.
     pub exact: Exact,
     /// Load steps, none if everything acts at once; the case itself is that of the last one.

@@ -99,7 +99,8 @@ impl Procedure<'_> {
         let goals = &sequence.adaptation.accuracy.goals;
         // What is estimated on a boundary that still moves is of another scene.
         let stands = solved.ending.is_converged() && solved.ending.still_moved().is_none_or(|way| way <= MOVES);
-        let errors = if stands { self.goal_errors(goals, solved)? } else { vec![None; goals.len()] };
+        let error = |goal: &Goal| if stands { self.goal_error(goal, solved) } else { Ok(None) };
+        let errors = goals.iter().map(error).collect::<Result<_, _>>()?;
         let adapted = AdaptedMesh {
             number: sequence.adaptation.meshes.len() + 1,
             macro_triangles: sequence.scene.mesh.triangles.len(),

@@ -21,13 +21,9 @@ const WORTH: f64 = 0.32;
 const ROUNDING: f64 = 1e-6;
 
 impl Procedure<'_> {
-    /// The estimated relative error of each goal; nothing where there is not enough to tell. **Collective**
-    pub(super) fn goal_errors(&self, goals: &[Goal], solved: &Solved) -> Result<Vec<Option<f64>>, SystemError> {
-        goals.iter().map(|goal| self.goal_error(goal, solved)).collect()
-    }
-
-    /// Of one goal: nothing where it would be reached, but its contact presses on less than an edge. **Collective**
-    fn goal_error(&self, goal: &Goal, solved: &Solved) -> Result<Option<f64>, SystemError> {
+    /// The estimated relative error of a goal; nothing where there is not enough to tell, or where it would be reached, but its
+    /// contact presses on less than an edge. **Collective**
+    pub(super) fn goal_error(&self, goal: &Goal, solved: &Solved) -> Result<Option<f64>, SystemError> {
         let error = self.estimated_error(goal, solved)?;
         let contact = goal.quantity.contact().and_then(|name| contact_called(&solved.problem, name));
         let is_reached = error.is_some_and(|error| error <= goal.tolerance);

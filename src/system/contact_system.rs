@@ -2,7 +2,7 @@
 
 use crate::discretisation::{Discretisation, Space, SystemError};
 use crate::multigrid::{Interpolation, LatticeOperator, Stiffness};
-use crate::petsc::{Matrix, Session, Vector, options};
+use crate::petsc::{Matrix, Session, Vector};
 use crate::system::choice::SolverChoice;
 use crate::system::rigid_border::RigidBorder;
 use crate::system::saddle_point::SaddlePoint;
@@ -289,11 +289,6 @@ impl<'a> System<'a> {
     /// What solves it, in words.
     pub fn solver_name(&self) -> &str {
         &self.solver.name
-    }
-
-    /// Options that the user gave and nothing has asked for.
-    pub fn unused_options(&self) -> Result<Vec<String>, SystemError> {
-        Ok(options::unused(&self.session)?)
     }
 }
 

@@ -237,7 +237,7 @@ fn check_springs(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
 
 /// Points of probes and of exact displacements lie in their bodies.
 fn check_points(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
-    let probes = case.probes.iter().map(|probe| (format!("probe.{}.point", probe.name), &probe.body, probe.point));
+    let probes = case.probes.iter().map(|probe| (format!("probe.{}.point", probe.name), &probe.body, probe.point.into()));
     let exact = case.exact.bodies.iter().flat_map(|exact| {
         let points = exact.displacement.iter().flat_map(|displacement| &displacement.at);
         points.map(|&point| (format!("exact.body.{}.displacement.at", exact.name), &exact.name, point))

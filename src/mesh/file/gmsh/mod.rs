@@ -139,9 +139,8 @@ fn read(bytes: &[u8], file: &Path) -> Result<RawMesh, MeshError> {
         seen.push(section.to_owned());
     }
     check_sections(&seen, version, file)?;
-    let mesh = elements.into_mesh();
-    check_groups(&mesh, file)?;
-    Ok(mesh)
+    check_groups(&elements.mesh, file)?;
+    Ok(elements.mesh)
 }
 
 /// Every section that is needed is there.
