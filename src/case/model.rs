@@ -193,8 +193,7 @@ impl Case {
 
 /// Middle of physical curves: the centre of a whole circle, otherwise the mean place over their length.
 fn middle_of(mesh: &MacroMesh, on: &[String]) -> Point {
-    let edges: BTreeSet<u32> =
-        on.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| boundary.edges.iter().copied()).collect();
+    let edges: BTreeSet<u32> = mesh.edges_on(on).collect();
     centre_of_circle(mesh, &edges).unwrap_or_else(|| mean_place(mesh, &edges))
 }
 

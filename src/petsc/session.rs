@@ -194,7 +194,7 @@ fn refuse_unequal_words(world: &SimpleCommunicator) -> Result<()> {
 }
 
 /// Whether a word of the command line is the name of an option: one or two minuses and a letter.
-pub(super) fn is_name(word: &str) -> bool {
+pub fn is_name(word: &str) -> bool {
     let rest = word.strip_prefix("--").or_else(|| word.strip_prefix('-'));
     rest.is_some_and(|rest| rest.starts_with(|first: char| first.is_ascii_alphabetic()))
 }

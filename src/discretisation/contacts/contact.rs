@@ -274,8 +274,7 @@ impl Places {
 /// Whether a load acts on one of these edges.
 fn is_loaded(scene: &Scene, edges: &[u32]) -> bool {
     let own: HashSet<u32> = edges.iter().copied().collect();
-    let names = scene.loads.iter().flat_map(|load| &load.on);
-    names.filter_map(|name| scene.mesh.boundary(name)).flat_map(|boundary| &boundary.edges).any(|edge| own.contains(edge))
+    scene.loads.iter().flat_map(|load| scene.mesh.edges_on(&load.on)).any(|edge| own.contains(&edge))
 }
 
 /// Share of the safe ratio below which segments are short.

@@ -88,8 +88,7 @@ fn resisting<'a>(case: &Case, mesh: &MacroMesh, hold: &'a MeanHold) -> Option<(S
 
 /// Edges of some boundaries beside a body.
 fn edges_of(mesh: &MacroMesh, names: &[String], body: &str) -> Vec<u32> {
-    let edges = names.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| boundary.edges.iter().copied());
-    edges.filter(|&edge| mesh.bodies[mesh.body_beside(edge)] == body).collect()
+    mesh.edges_on(names).filter(|&edge| mesh.bodies[mesh.body_beside(edge)] == body).collect()
 }
 
 /// Ends and middles of such edges, with the normals there.

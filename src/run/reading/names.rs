@@ -81,8 +81,7 @@ impl Names<'_> {
     pub fn check_plates(&self) -> Result<(), String> {
         for plate in &self.case.plates {
             let key = format!("load.{}.on", plate.name);
-            let edges = plate.on.iter().filter_map(|name| self.mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
-            let pieces: BTreeSet<usize> = edges.map(|&edge| self.mesh.piece_beside(edge)).collect();
+            let pieces: BTreeSet<usize> = self.mesh.edges_on(&plate.on).map(|edge| self.mesh.piece_beside(edge)).collect();
             if pieces.len() > 1 {
                 return Err(format!("{key}: lies on {} bodies or pieces of one; give each a load of its own", pieces.len()));
             }
