@@ -1,7 +1,7 @@
 //! The mesh of the file: triangles of named bodies, edges, named boundaries.
 
 use super::MeshError;
-use super::edge_shape::EdgeShape;
+use super::curve_piece::CurvePiece;
 use super::file_place::FilePlace;
 use super::loose_curve::LooseCurve;
 use super::raw_mesh::{RawMesh, RawTriangle};
@@ -56,13 +56,13 @@ pub struct MacroEdge {
     /// Macro triangles beside it: one on a boundary, two inside a body.
     pub triangles: [Option<u32>; 2],
     /// True shape, where it is not straight.
-    pub shape: Option<EdgeShape>,
+    pub shape: Option<CurvePiece>,
 }
 
 impl MacroEdge {
     /// Bends the edge onto a curve, whose parameters at the vertices `ends` are `range`.
     pub fn bend(&mut self, ends: [u32; 2], curve: Arc<Curve>, [from, to]: [f64; 2]) {
-        self.shape = Some(EdgeShape { curve, range: if self.vertices == ends { [from, to] } else { [to, from] } });
+        self.shape = Some(CurvePiece { curve, range: if self.vertices == ends { [from, to] } else { [to, from] } });
     }
 }
 

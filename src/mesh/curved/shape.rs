@@ -3,7 +3,7 @@
 use crate::element::Plane;
 use crate::geometry::{Coordinates, Curve, Point, Rounded};
 use crate::mesh::MeshError;
-use crate::mesh::edge_shape::EdgeShape;
+use crate::mesh::curve_piece::CurvePiece;
 use crate::mesh::macro_mesh::MacroMesh;
 use nalgebra::Matrix2;
 use std::sync::Arc;
@@ -60,7 +60,7 @@ impl MacroMesh {
                 self.vertices[vertex as usize] = there;
             }
         }
-        self.edges[edge as usize].shape = (!curve.is_line()).then(|| EdgeShape { curve: curve.clone(), range });
+        self.edges[edge as usize].shape = (!curve.is_line()).then(|| CurvePiece { curve: curve.clone(), range });
         Ok(())
     }
 
@@ -102,7 +102,7 @@ impl MacroMesh {
             }
             let straight = corners[k] * (1.0 - t) + corners[(k + 1) % 3] * t;
             let along = if macro_triangle.forward[k] { t } else { 1.0 - t };
-            x += (shape.curve.point(shape.parameter(along)) - straight) * (a * b / (t * (1.0 - t)));
+            x += (shape.point(along) - straight) * (a * b / (t * (1.0 - t)));
         }
         x
     }
@@ -141,7 +141,7 @@ impl MacroMesh {
         let macro_edge = &self.edges[edge as usize];
         let [a, b] = macro_edge.vertices.map(|vertex| self.vertices[vertex as usize]);
         match &macro_edge.shape {
-            Some(shape) if t > 0.0 && t < 1.0 => shape.curve.point(shape.parameter(t)),
+            Some(shape) if t > 0.0 && t < 1.0 => shape.point(t),
             _ => a * (1.0 - t) + b * t,
         }
     }

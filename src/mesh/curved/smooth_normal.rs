@@ -4,7 +4,7 @@
 //! So the normal of a polygon comes from the circles through three nodes in a row, which lie on the circle if the nodes do.
 
 use crate::geometry::{Point, cross, turn_right};
-use crate::mesh::edge_shape::EdgeShape;
+use crate::mesh::curve_piece::CurvePiece;
 use crate::mesh::macro_mesh::MacroMesh;
 use std::collections::HashMap;
 
@@ -64,7 +64,7 @@ impl SmoothNormals {
 
 /// Whether nobody has declared the shape of an edge: it is a chord, or bent onto a spline through vertices.
 fn is_undeclared(mesh: &MacroMesh, edge: u32) -> bool {
-    mesh.edges[edge as usize].shape.as_ref().is_none_or(EdgeShape::is_spline)
+    mesh.edges[edge as usize].shape.as_ref().is_none_or(CurvePiece::is_spline)
 }
 
 impl MacroMesh {

@@ -16,7 +16,7 @@
 
 use crate::geometry::{Curve, Point};
 use crate::mesh::chain::Stretch;
-use crate::mesh::edge_shape::EdgeShape;
+use crate::mesh::curve_piece::CurvePiece;
 use crate::mesh::macro_mesh::MacroMesh;
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ const FAINT: f64 = 0.1;
 /// A line that turns by less (radians) is one whose points are rounded.
 const ROUNDED: f64 = 1e-5;
 
-impl EdgeShape {
+impl CurvePiece {
     /// Whether it is a spline through nodes, which nobody has declared.
     pub fn is_spline(&self) -> bool {
         matches!(*self.curve, Curve::Spline(_))
@@ -81,7 +81,7 @@ impl MacroMesh {
     /// How far the farthest chord of a boundary lies from the spline that it is bent onto (length); 0 if none is.
     pub fn bent_by(&self, boundary: &str) -> f64 {
         let edges = self.edges_of(boundary);
-        let bent = |edge: &&u32| self.edges[**edge as usize].shape.as_ref().is_some_and(EdgeShape::is_spline);
+        let bent = |edge: &&u32| self.edges[**edge as usize].shape.as_ref().is_some_and(CurvePiece::is_spline);
         let height = |&edge: &u32| {
             let [a, b] = self.edge_ends(edge);
             (self.edge_position(edge, 0.5) - 0.5 * (a + b)).norm()

@@ -53,15 +53,15 @@ impl MacroMesh {
 #[cfg(test)]
 mod tests {
     use crate::geometry::Curve;
+    use crate::mesh::curve_piece::CurvePiece;
     use crate::mesh::samples::two_blocks;
-    use crate::mesh::tools::tool::SurfacePart;
 
     #[test]
     fn what_is_left_without_a_tool_is_the_mesh_before_it() {
         let before = two_blocks();
         let mut mesh = before.clone();
         let against = mesh.boundary("top").expect("named").edges.clone();
-        let line = SurfacePart { curve: Curve::Line([[0.2, 2.1], [1.8, 2.1]]), range: [0.0, 1.0] };
+        let line = CurvePiece { curve: Curve::Line([[0.2, 2.1], [1.8, 2.1]]).into(), range: [0.0, 1.0] };
         mesh.add_tool("rigid.die", &[line], &against).expect("a good surface");
         assert!(mesh.to_gmsh().contains("rigid.die"));
         assert_eq!(mesh.without_tools(|name| name == "rigid.die").to_gmsh(), before.to_gmsh());
