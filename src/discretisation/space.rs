@@ -57,6 +57,14 @@ impl Space {
         values
     }
 
+    /// Unknowns of this rank that are prescribed, counted from its first, with their values.
+    pub fn fixed(&self) -> impl Iterator<Item = (usize, f64)> {
+        let own = self.constraints.iter().filter(|(node, _)| self.own.contains(node));
+        own.flat_map(move |(node, of)| {
+            (0..2).filter(|&k| of.fixed[k]).map(move |k| (2 * (node - self.own.start) + k, of.value[k]))
+        })
+    }
+
     /// A force on a node, in its frame, with the part on prescribed components left out.
     #[inline]
     pub fn free_part(&self, node: usize, force: Point) -> Point {
