@@ -1,6 +1,9 @@
 //! A scene as it lies before anything is solved.
 
-use crate::discretisation::{Contact, Scene, Space, SystemError, check_soundness, finest_numbering, not_held_if_closed};
+use crate::contact::Mechanism;
+use crate::discretisation::{
+    Contact, Scene, Space, SystemError, check_soundness, finest_numbering, free_motion_if_closed, not_held_if_closed,
+};
 use crate::mesh::Numbering;
 
 /// The mesh of the case with its contacts on bodies at rest.
@@ -32,5 +35,12 @@ impl AtRest {
     /// [`SystemError::Case`] if a contact cannot be integrated.
     pub fn not_held(&self, scene: &Scene) -> Result<Option<String>, SystemError> {
         not_held_if_closed(scene, &self.numbering, &self.contacts)
+    }
+    /// A rigid motion that nothing holds though contact is closed everywhere, of a scene that is on one rank.
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] if a contact cannot be integrated.
+    pub fn free_motion(&self, scene: &Scene) -> Result<Option<Mechanism>, SystemError> {
+        free_motion_if_closed(scene, &self.numbering, &self.contacts)
     }
 }

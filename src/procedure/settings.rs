@@ -4,7 +4,7 @@ use crate::accuracy::{Accuracy, ProbePoint};
 use crate::discretisation::{Discretisation, Form, Scene, SystemError, finest_numbering};
 use crate::petsc::Session;
 use crate::procedure::observer::Observer;
-use crate::system::{SolverChoice, Tolerance, memory_need};
+use crate::system::{SolverChoice, Tolerance, memory_need, memory_of_macro_mesh};
 
 /// Displacement unknowns up to which a solve that failed, or whose active set was hard to find, is looked into.
 const LARGE_INF_SUP: usize = 200_000;
@@ -36,6 +36,11 @@ impl Procedure<'_> {
     pub fn need(&self, scene: &Scene, refine: usize) -> Result<(usize, f64), SystemError> {
         let unknowns = 2 * finest_numbering(&Scene { refine, ..scene.clone() })?.node_count();
         Ok((unknowns, memory_need(scene, refine, (self.choice, self.tolerance), self.session.rank())))
+    }
+
+    /// Bytes that a scene on one rank takes, and those that its macro mesh takes on each further one.
+    pub fn look_at_need(scene: &Scene, choice: SolverChoice, tolerance: Tolerance) -> [f64; 2] {
+        [memory_need(scene, scene.refine, (choice, tolerance), 0), memory_of_macro_mesh(scene)]
     }
 
     /// The points that goals are set for.

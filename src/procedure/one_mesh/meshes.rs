@@ -74,7 +74,7 @@ impl Procedure<'_> {
     pub(crate) fn solve_on_mesh(&self, scene: Scene, predecessor: Option<&Predecessor>) -> Result<Solved, SystemError> {
         let at_rest = {
             let _stage = self.observer.enter(Work::Contact);
-            AtRest::new(&scene, self.session.rank())?
+            Self::look(&scene, self.session.rank())?
         };
         self.observer.observe(Event::AtRest { scene: &scene, at_rest: &at_rest });
         let mut first = self.first_solver(&scene, 2 * at_rest.numbering.node_count());
@@ -95,6 +95,14 @@ impl Procedure<'_> {
                 Ok(Solved::nothing(*problem, Ending::NotConverged(Failure::NotHeld(words)), coarser.solves))
             }
         }
+    }
+
+    /// Looks at a scene: one that is not sound is refused before anything is solved.
+    ///
+    /// # Errors
+    /// [`SystemError::Case`] in words.
+    pub fn look(scene: &Scene, rank: usize) -> Result<AtRest, SystemError> {
+        AtRest::new(scene, rank)
     }
 
     /// What the choice of the case comes to; what "auto" does is said with its reason.

@@ -6,7 +6,7 @@ use crate::discretisation::Scene;
 use crate::element::{Heat, Order, Plane};
 use crate::mesh::MacroMesh;
 use crate::output::summary::lines_alike;
-use crate::procedure::{AtRest, Procedure};
+use crate::procedure::Procedure;
 use crate::run::checking::acting_lines::acting_lines;
 use crate::run::checking::proposals::{proposed_contacts, proposed_supports, take_refused, with_tables};
 use crate::run::checking::tools::{ProposedTool, ProposedTools};
@@ -19,7 +19,6 @@ use crate::run::verdict::warnings::pulled::pulled_off;
 use crate::run::verdict::warnings::shrinking::ShrunkBody;
 use crate::run::words::units;
 use crate::run::{accuracy, memory};
-use crate::system::{memory_need, memory_of_macro_mesh};
 use std::path::Path;
 
 /// Names that a pattern stands for which are told.
@@ -75,7 +74,7 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     let slits = slits(&mesh);
     let scene = scene::first(case, mesh)?;
     let not_held_before = check_steps(case, &scene)?;
-    let at_rest = AtRest::new(&scene, 0)?;
+    let at_rest = Procedure::look(&scene, 0)?;
     check_pressures(case, &at_rest.contacts).map_err(RunError::Key)?;
     let triangles = scene.mesh.triangles.len() * at_rest.numbering.level.triangles_per_edge().pow(2);
     let order = if scene.order == Order::P1 { "P1" } else { "P2" };
@@ -93,8 +92,7 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     if let Some(last) = case.steps.last() {
         lines.push(format!("{} load steps; the last one is {}", last.count, last.words()));
     }
-    let need = memory_need(&scene, scene.refine, (case.solver.choice, case.solver.tolerance), 0);
-    let of_macro_mesh = memory_of_macro_mesh(&scene);
+    let [need, of_macro_mesh] = Procedure::look_at_need(&scene, case.solver.choice, case.solver.tolerance);
     // An accuracy has a limit to its meshes.
     let (memory, warning) = if case.accuracy.is_none() { memory::told(need, of_macro_mesh) } else { Default::default() };
     lines.extend((!memory.is_empty()).then_some(memory));
@@ -178,7 +176,7 @@ fn proposals(case: &Case, mesh: &MacroMesh, is_loose: bool) -> String {
 fn check_steps(case: &Case, last: &Scene) -> Result<Option<String>, RunError> {
     for step in case.steps.iter().rev().skip(1).rev() {
         let scene = scene::of_step(step, last);
-        let words = AtRest::new(&scene, 0).and_then(|at_rest| at_rest.not_held(&scene));
+        let words = Procedure::look(&scene, 0).and_then(|at_rest| at_rest.not_held(&scene));
         let words = words.map_err(|error| RunError::from(error).in_step(step))?;
         if let Some(words) = words.or_else(|| driven_off(case, &scene)) {
             return Ok(Some(format!("{}: {words}", step.words())));

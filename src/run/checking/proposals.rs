@@ -7,7 +7,7 @@ use crate::discretisation;
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{Level, MacroMesh, Numbering, Partition, Spot};
-use crate::procedure::AtRest;
+use crate::procedure::Procedure;
 use crate::run::reading::scene;
 use std::rc::Rc;
 use toml::Value;
@@ -234,8 +234,7 @@ fn next_support(case: &Case, proposed: &[Proposed], names: &mut TableNames) -> O
     let mesh = scene::read_mesh_file(case).and_then(|bytes| scene::read_mesh(case, &bytes)).ok()?;
     // As `check` looks at it: contacts that are found on the first refined mesh may not be found on that of the file.
     let scene = scene::first(case, mesh).ok()?;
-    let AtRest { numbering, contacts } = AtRest::new(&scene, 0).ok()?;
-    let motion = discretisation::free_motion_if_closed(&scene, &numbering, &contacts).ok()??;
+    let motion = Procedure::look(&scene, 0).and_then(|at_rest| at_rest.free_motion(&scene)).ok()??;
     let extent = scene.extents()[motion.piece];
     support_for(case, &scene.mesh, &motion, extent, proposed, names)
 }

@@ -4,7 +4,7 @@ use crate::case::LambdaExact;
 use crate::contact::SegmentRule;
 use crate::discretisation::Scene;
 use crate::petsc::StageGuard;
-use crate::procedure::{AtRest, Event, Observer, Procedure, Solved, Work};
+use crate::procedure::{Event, Observer, Procedure, Solved, Work};
 use crate::run::outcome::RunError;
 use crate::run::reading::checks::check_pressures;
 use crate::run::telling::stages::Stages;
@@ -29,7 +29,7 @@ impl Run<'_> {
             memory::refuse_too_large(scene.refine, |refine| procedure.need(&scene, refine), self.session)?;
         }
         if self.case.exact.contacts.iter().any(|exact| matches!(exact.lambda, Some(LambdaExact::Formula { .. }))) {
-            let at_rest = AtRest::new(&scene, self.session.rank())?;
+            let at_rest = Procedure::look(&scene, self.session.rank())?;
             check_pressures(self.case, &at_rest.contacts).map_err(RunError::Key)?;
         }
         Ok(procedure.solve(scene, before)?)

@@ -5,7 +5,7 @@ use crate::case::LoadStep;
 use crate::discretisation::Scene;
 use crate::output::summary::{Status, StepSummary, Summary};
 use crate::output::{CONTACTS, OutputError, plot, steps_table, vtk, write_text};
-use crate::procedure::{AtRest, Solved};
+use crate::procedure::{Procedure, Solved};
 use crate::run::Run;
 use crate::run::outcome::RunError;
 use crate::run::reading::checks::check_pressures;
@@ -27,7 +27,7 @@ impl Run<'_> {
     pub(in crate::run) fn solve_steps(&self, scene: &Scene) -> Result<Summary, RunError> {
         // What cannot be used is told before anything is solved.
         for step in &self.case.steps {
-            let looked = AtRest::new(&scene::of_step(step, scene), self.session.rank());
+            let looked = Procedure::look(&scene::of_step(step, scene), self.session.rank());
             let at_rest = looked.map_err(|error| RunError::from(error).in_step(step))?;
             check_pressures(&step.case, &at_rest.contacts).map_err(|words| RunError::Key(words).in_step(step))?;
         }

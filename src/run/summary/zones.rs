@@ -1,7 +1,7 @@
 //! What each zone of a contact that presses is, and what is estimated of its pressure.
 
 use crate::contact::Zone;
-use crate::discretisation::ContactPressure;
+use crate::discretisation::Contact;
 use crate::output::summary::{ContactEstimate, ZoneSummary};
 use crate::procedure::Solved;
 use crate::recovery::TracePoint;
@@ -17,15 +17,15 @@ pub struct Zones<'a> {
     at: usize,
     /// Traces of the contact.
     points: &'a [TracePoint],
-    pressure: ContactPressure<'a>,
+    contact: &'a Contact,
     zones: Vec<Zone>,
 }
 
 impl<'a> Zones<'a> {
     /// The zones of contact `at`; `points` are its traces.
     pub fn new(solved: &'a Solved, at: usize, points: &'a [TracePoint]) -> Self {
-        let pressure = solved.solution.pressure(&solved.problem.contacts[at]);
-        Self { solved, at, points, zones: pressure.zones(), pressure }
+        let contact = &solved.problem.contacts[at];
+        Self { solved, at, points, contact, zones: solved.solution.pressure(contact).zones() }
     }
 
     /// Arc lengths of their ends; on a closed boundary they may go on beyond its seam.
@@ -42,18 +42,19 @@ impl<'a> Zones<'a> {
 
     /// Most edges of the softer body on a zone.
     pub fn closed_edges(&self) -> Option<f64> {
-        self.zones.iter().map(|zone| self.pressure.contact.edges_on(zone)).reduce(f64::max)
+        self.zones.iter().map(|zone| self.contact.edges_on(zone)).reduce(f64::max)
     }
 
     /// Arcs of the zones that anyone would look at.
     pub fn counting(&self) -> Vec<[f64; 2]> {
-        self.pressure.counting(&self.zones, self.arcs()).collect()
+        self.solved.solution.pressure(self.contact).counting(&self.zones, self.arcs()).collect()
     }
 
     /// Each zone as the summary has it; `corner_error` is what corners within the contact do to λ.
     pub fn summaries(&self, corner_error: Option<f64>) -> Vec<ZoneSummary> {
-        let Self { solved: Solved { problem, estimate, .. }, pressure, zones, points, .. } = self;
-        let (contact, estimates) = (pressure.contact, estimate.of_zones(self.at, pressure, zones, points));
+        let Self { solved: Solved { problem, solution, estimate, .. }, contact, zones, points, .. } = self;
+        let pressure = solution.pressure(contact);
+        let estimates = estimate.of_zones(self.at, &pressure, zones, points);
         // Meshes that adapt are refined there by more than one half, or by nothing.
         let goes_on = if self.solved.adaptation.is_none() { estimate.peaks_go_on(self.at) } else { Vec::new() };
         let describe = |(k, share): (usize, f64)| {
