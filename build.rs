@@ -19,7 +19,7 @@ const FUNCTIONS: &[&str] = &[
     "VecCreate(SeqWithArray|MPIWithArray)|Vec(Place|Reset)Array",
     "IS(Destroy|GetLocalSize|GetIndices|RestoreIndices)",
     // matrix, nest, shell
-    "Mat(Create|SetSizes|SetType|Destroy|SetOption|AssemblyBegin|AssemblyEnd|ZeroEntries|Norm|GetInfo|Convert)",
+    "Mat(Create|SetSizes|SetType|Destroy|SetOption|AssemblyBegin|AssemblyEnd|Norm|Convert)",
     "Mat(SetValues|SetValuesBlocked|Mult|MultAdd|Residual|CreateVecs)",
     "Mat(GetLocalSize|GetSize|GetOwnershipRange)",
     "MatXAIJSetPreallocation|MatCreateNest|MatNestGetISs|MatCreateTranspose",

@@ -14,7 +14,7 @@ const CARRIES_NOTHING: f64 = 1e-4;
 pub struct ProbePoint {
     /// Name in the case.
     pub name: String,
-    /// Name of the body.
+    /// Name of the body, or of a part of one; two of them may touch there.
     pub body: String,
     /// Where (length).
     pub point: Point,
@@ -156,9 +156,8 @@ impl Quantity {
     /// The contact or the probe that it is of; nothing for the whole scene.
     pub fn of(&self) -> Option<&str> {
         match self {
-            Self::Energy => None,
-            Self::Force(name) | Self::Pressure(name) | Self::Peak(name) | Self::Ends(name) => Some(name),
             Self::Displacement(probe) | Self::Stress(probe) => Some(&probe.name),
+            _ => self.contact(),
         }
     }
 }
@@ -196,11 +195,15 @@ impl Adaptation {
         self.accuracy.goals.iter().map(|goal| share(goal) * goal.tolerance).collect()
     }
 
+    /// Estimated error of a goal on the last mesh.
+    pub fn error(&self, place: usize) -> Option<f64> {
+        self.meshes.last().and_then(|mesh| mesh.errors.get(place).copied().flatten())
+    }
+
     /// The goals that are missed on the last mesh, with their places among all.
     pub fn missed(&self) -> impl Iterator<Item = (usize, &Goal)> {
-        let errors = self.meshes.last().map(|mesh| mesh.errors.as_slice()).unwrap_or(&[]);
         let wanted = self.wanted();
-        let holds = move |place: usize| errors.get(place).copied().flatten().is_some_and(|error| error <= wanted[place]);
+        let holds = move |place: usize| self.error(place).is_some_and(|error| error <= wanted[place]);
         self.accuracy.goals.iter().enumerate().filter(move |(place, _)| !holds(*place))
     }
 

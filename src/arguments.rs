@@ -6,6 +6,7 @@ use clap::error::{ContextKind, ContextValue};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
 use crate::geometry::Quote;
+use crate::petsc::is_name;
 
 /// Exit codes, and where the rest is told.
 const AFTERWORD: &str = "
@@ -191,8 +192,7 @@ pub fn nearest_command(error: &clap::Error) -> Option<String> {
 
 /// Whether PETSc takes a word for the name of an option: one minus or two, and a letter; infinity and NaN are numbers.
 fn is_option(word: &str) -> bool {
-    let name = word.strip_prefix('-').map(|rest| rest.strip_prefix('-').unwrap_or(rest));
-    name.is_some_and(|name| name.starts_with(|c: char| c.is_ascii_alphabetic())) && word.parse::<f64>().is_err()
+    is_name(word) && word.parse::<f64>().is_err()
 }
 
 impl RunArguments {

@@ -1,8 +1,8 @@
 //! Meshes as other people write them: any order of blocks, tags, corners and sections gives the same scene.
 
-use crate::support::mesh::{GOOD, Mesh, Random, write_scene};
+use crate::support::mesh::{GOOD, Mesh, Random, read_gmsh, write_scene};
 use crate::support::{Run, difference};
-use mezha::mesh::{Boundary, read_gmsh};
+use mezha::mesh::Boundary;
 use std::collections::HashMap;
 use std::path::Path;
 use std::process::Command;

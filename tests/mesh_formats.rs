@@ -1,9 +1,9 @@
 //! The same scene in all formats of Gmsh that are read, as Gmsh 4.15 has saved it: `tests/meshes/disc.geo`, a half disc on a block.
 
 use crate::support::Run;
-use crate::support::mesh::write_scene;
+use crate::support::mesh::{read_gmsh, write_scene};
 use mezha::geometry::{Curve, gauss_points};
-use mezha::mesh::{MacroMesh, parse_gmsh, read_gmsh};
+use mezha::mesh::{MacroMesh, parse_gmsh};
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
@@ -152,13 +152,14 @@ fn a_binary_file_that_is_cut_off_is_told_wherever() {
     for name in ["disc_2.2_order2_binary", "disc_4.1_order1_binary"] {
         let bytes = std::fs::read(file(name)).expect("a mesh");
         for length in 0..bytes.len() - "$EndElements\n".len() {
-            let words = parse_gmsh(&bytes[..length], Path::new("a.msh")).expect_err("it is cut off").to_string();
+            let words =
+                parse_gmsh(&bytes[..length], Path::new("a.msh"), Default::default()).expect_err("it is cut off").to_string();
             assert!(words.len() < 400, "{length}: {words}");
         }
         // Counts that lie ask for no memory.
         let at = bytes.windows(7).position(|window| window == b"$Nodes\n").expect("nodes") + 7;
         let mut lying = bytes.clone();
         lying[at..at + 6].fill(if name.contains("4.1") { 0xff } else { b'9' });
-        parse_gmsh(&lying, Path::new("a.msh")).expect_err("there are not so many");
+        parse_gmsh(&lying, Path::new("a.msh"), Default::default()).expect_err("there are not so many");
     }
 }

@@ -3,7 +3,7 @@
 //! Set `MEZHA_PYTHON` to an interpreter that has `meshio`, and `h5py` and `netCDF4` for MED and Exodus; without it the test says
 //! so and checks nothing.
 
-use mezha::mesh::read_gmsh;
+use crate::support::mesh::read_gmsh;
 use std::process::Command;
 
 #[test]

@@ -1,7 +1,7 @@
 //! Patch tests: a constant stress field is met exactly by every pair of spaces, on any mesh, on any number of ranks.
 
+use crate::support::mesh::read_gmsh;
 use crate::support::{Ended, PAIRS, Run, difference, pairs_on_ranks, ranks_in_turn};
-use mezha::mesh::read_gmsh;
 use std::path::Path;
 
 const EXACT: f64 = 1e-9;

@@ -110,7 +110,7 @@ impl Corpus {
 
     /// What the program says of a text, for the other reader.
     fn line(&self, text: &str, explain: bool) -> String {
-        let form = schema::faults(self.table, text).map(|faults| faults.is_empty());
+        let form = has_form(self.table, text);
         let accepts = self.accepts(text);
         format!("{}\n", json!({ "kind": self.kind, "text": text, "accepts": accepts, "form": form, "explain": explain }))
     }
@@ -175,6 +175,11 @@ impl Corpus {
         ];
         self.table.all().map(|key| key.name).chain(NAMES).collect()
     }
+}
+
+/// Whether a text has the form of a table, if it is TOML at all.
+fn has_form(table: &TableForm, text: &str) -> Option<bool> {
+    toml::from_str(text).ok().map(|file| table.faults(&file).is_empty())
 }
 
 /// All values below one.
@@ -247,7 +252,7 @@ fn an_independent_reader_of_the_schemas_agrees_with_the_program() {
         let whole = [&cases, &studies].into_iter().flat_map(|corpus| {
             corpus.texts.iter().map(|text| {
                 let text = String::from_utf8_lossy(text);
-                assert!(schema::faults(corpus.table, &text).is_some_and(|faults| faults.is_empty()), "{text}");
+                assert_eq!(has_form(corpus.table, &text), Some(true), "{text}");
                 corpus.line(&text, true)
             })
         });

@@ -63,11 +63,6 @@ impl Constraint {
     }
 }
 
-/// Supports that cannot all hold.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{0}")]
-pub struct SupportError(pub String);
-
 /// What holds a node, by its name; shown as the key of the case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub(super) enum HeldBy<'a> {
@@ -103,7 +98,7 @@ impl Constraints {
     /// [`Constraints::move_rigidly`] for the others.
     ///
     /// # Errors
-    /// [`SupportError`] if two supports give different values to one component of one node, or a value is not finite, or a support
+    /// Words, if two supports give different values to one component of one node, or a value is not finite, or a support
     /// holds a rigid set that is to move.
     pub fn new(
         mesh: &MacroMesh,
@@ -111,7 +106,7 @@ impl Constraints {
         supports: &[Support],
         means: &[MeanHold],
         rigid: &[RigidSet],
-    ) -> Result<Self, SupportError> {
+    ) -> Result<Self, String> {
         let mut holds = all_holds(mesh, numbering, supports)?;
         for hold in means {
             for anchor in &hold.anchors {
@@ -126,7 +121,7 @@ impl Constraints {
             hold_on_axis(mesh, numbering, &mut holds)?;
         }
         let nodes = holds.iter().map(|(&node, (x, holds))| Ok((node, combine(*x, holds)?)));
-        let nodes = nodes.collect::<Result<HashMap<usize, Constraint>, SupportError>>().map_err(|_| first_clash(&holds))?;
+        let nodes = nodes.collect::<Result<HashMap<usize, Constraint>, String>>().map_err(|_| first_clash(&holds))?;
         let mut among = vec![0; nodes.keys().max().map_or(0, |last| last / 64 + 1)];
         nodes.keys().for_each(|&node| among[node / 64] |= 1 << (node % 64));
         Ok(Self { nodes, among })
@@ -163,33 +158,28 @@ impl Constraints {
 }
 
 /// The contradiction farthest to the left, and lowest there: the same on every rank, and in every run.
-fn first_clash(holds: &AllHolds) -> SupportError {
+fn first_clash(holds: &AllHolds) -> String {
     let mut all: Vec<&(Point, Vec<Hold>)> = holds.values().collect();
     all.sort_by(|(a, _), (b, _)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let clash = all.into_iter().find_map(|(x, holds)| combine(*x, holds).err());
-    clash.unwrap_or_else(|| SupportError("supports contradict each other".into()))
+    clash.unwrap_or_else(|| "supports contradict each other".into())
 }
 
 /// Holds both components of every node of a rigid set, where its prescribed motion puts it.
-fn hold_rigidly<'a>(
-    mesh: &MacroMesh,
-    numbering: &Numbering,
-    set: &'a RigidSet,
-    holds: &mut AllHolds<'a>,
-) -> Result<(), SupportError> {
+fn hold_rigidly<'a>(mesh: &MacroMesh, numbering: &Numbering, set: &'a RigidSet, holds: &mut AllHolds<'a>) -> Result<(), String> {
     let motion = set.prescribed_motion();
     for (node, x) in set.places(mesh, numbering) {
         let (_, known) = holds.entry(node).or_insert((x, Vec::new()));
         for hold in known.iter() {
             let moves = |&k: &usize| set.mode(k, x).dot(&hold.direction).abs() > SAME * set.mode(k, x).norm();
             if let Some(k) = set.free().find(moves) {
-                return Err(SupportError(format!(
+                return Err(format!(
                     "{} holds a node at {} that {} is to move: prescribe its {}, or leave the support out there",
                     hold.by,
                     Coordinates(x),
                     set.key,
                     MOTIONS[k]
-                )));
+                ));
             }
         }
         let u = set.displacement(&motion, x);
@@ -201,7 +191,7 @@ fn hold_rigidly<'a>(
 }
 
 /// Holds the nodes on the axis of revolution there: a ring without a radius has none to gain.
-fn hold_on_axis(mesh: &MacroMesh, numbering: &Numbering, holds: &mut AllHolds) -> Result<(), SupportError> {
+fn hold_on_axis(mesh: &MacroMesh, numbering: &Numbering, holds: &mut AllHolds) -> Result<(), String> {
     let inner = mesh.edges_on_axis().flat_map(|edge| EdgeNode::along(edge, numbering.level));
     let ends = (0..mesh.vertices.len() as u32).map(|vertex| (numbering.vertex(vertex), mesh.vertices[vertex as usize]));
     let of_ends = ends.filter(|(_, x)| x.x == 0.0);
@@ -213,11 +203,7 @@ fn hold_on_axis(mesh: &MacroMesh, numbering: &Numbering, holds: &mut AllHolds) -
 }
 
 /// What all supports say at the nodes of a level: the place of each, and the directions that are held there.
-pub(super) fn all_holds<'a>(
-    mesh: &MacroMesh,
-    numbering: &Numbering,
-    supports: &'a [Support],
-) -> Result<AllHolds<'a>, SupportError> {
+pub(super) fn all_holds<'a>(mesh: &MacroMesh, numbering: &Numbering, supports: &'a [Support]) -> Result<AllHolds<'a>, String> {
     let mut holds = AllHolds::new();
     for support in supports {
         if let Some(vertex) = support.at.as_ref().and_then(|spot| mesh.vertex_at(spot)) {
@@ -239,7 +225,7 @@ pub(super) fn all_holds<'a>(
 }
 
 /// Adds what a support says of both axes at a point.
-fn collect_axes<'a>(support: &'a Support, x: Point, known: &mut Vec<Hold<'a>>) -> Result<(), SupportError> {
+fn collect_axes<'a>(support: &'a Support, x: Point, known: &mut Vec<Hold<'a>>) -> Result<(), String> {
     let axes: [(&Option<Formula>, Point); 2] = [(&support.ux, Point::new(1.0, 0.0)), (&support.uy, Point::new(0.0, 1.0))];
     for (formula, direction) in axes {
         if let Some(formula) = formula {
@@ -250,9 +236,9 @@ fn collect_axes<'a>(support: &'a Support, x: Point, known: &mut Vec<Hold<'a>>) -
 }
 
 /// Adds a hold; normals of one support that nearly agree at a node become their mean.
-fn add<'a>(known: &mut Vec<Hold<'a>>, by: HeldBy<'a>, direction: Point, value: f64, x: Point) -> Result<(), SupportError> {
+fn add<'a>(known: &mut Vec<Hold<'a>>, by: HeldBy<'a>, direction: Point, value: f64, x: Point) -> Result<(), String> {
     if !value.is_finite() {
-        return Err(SupportError(format!("{by}: its formula has no finite value at {}; correct the formula", Coordinates(x))));
+        return Err(format!("{by}: its formula has no finite value at {}; correct the formula", Coordinates(x)));
     }
     let near = |hold: &&mut Hold| hold.by == by && hold.direction.dot(&direction) > SMOOTH.cos();
     match known.iter_mut().find(near) {
@@ -262,7 +248,7 @@ fn add<'a>(known: &mut Vec<Hold<'a>>, by: HeldBy<'a>, direction: Point, value: f
     Ok(())
 }
 
-fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, SupportError> {
+fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, String> {
     let first = &holds[0];
     let second = holds.iter().find(|hold| cross(first.direction, hold.direction).abs() > SAME);
     let constraint = match second {
@@ -286,7 +272,7 @@ fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, SupportError> {
         // Against the whole displacement: two supports that fix a node leave rounding of it in the direction of a third.
         if (along - hold.value).abs() > 1e-9 * (u.norm() + hold.value.abs()) {
             let others: Vec<_> = holds.iter().filter(|h| h.by != hold.by).map(|h| h.by.to_string()).collect();
-            return Err(SupportError(format!(
+            return Err(format!(
                 "{} asks for displacement {} in direction ({:.6}, {:.6}) at {}, {} for {}; leave one of them out there",
                 hold.by,
                 Rounded(hold.value),
@@ -295,7 +281,7 @@ fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, SupportError> {
                 Coordinates(x),
                 others.join(" and "),
                 Rounded(along)
-            )));
+            ));
         }
     }
     Ok(constraint)
@@ -345,7 +331,7 @@ mod tests {
 
     #[test]
     fn a_contradiction_names_both_supports() {
-        let words = combine(Point::new(1.0, 2.0), &[hold("wall", 0.0, 0.0), hold("pull", 0.0, 0.1)]).unwrap_err().0;
+        let words = combine(Point::new(1.0, 2.0), &[hold("wall", 0.0, 0.0), hold("pull", 0.0, 0.1)]).unwrap_err();
         assert!(words.contains("support.wall") && words.contains("support.pull") && words.contains("(1, 2)"), "{words}");
     }
 }

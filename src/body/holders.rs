@@ -1,7 +1,7 @@
 //! Which supports hold each node, and how they share the force there.
 
 use super::Support;
-use super::constraint::{HeldBy, Hold, SAME, SupportError, all_holds};
+use super::constraint::{HeldBy, Hold, SAME, all_holds};
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, Numbering};
 use nalgebra::{Matrix2, SMatrix};
@@ -15,8 +15,8 @@ impl Holders {
     /// Supports of all nodes of a level.
     ///
     /// # Errors
-    /// [`SupportError`] if a formula of a support has no finite value at a node.
-    pub fn new(mesh: &MacroMesh, numbering: &Numbering, supports: &[Support]) -> Result<Self, SupportError> {
+    /// Words, if a formula of a support has no finite value at a node.
+    pub fn new(mesh: &MacroMesh, numbering: &Numbering, supports: &[Support]) -> Result<Self, String> {
         let number = |by: HeldBy| supports.iter().position(|support| by == HeldBy::Support(&support.name)).unwrap_or_default();
         let of_node = |holds: &[Hold]| holds.iter().map(|hold| (number(hold.by), hold.direction)).collect();
         let all = all_holds(mesh, numbering, supports)?;

@@ -13,7 +13,7 @@ mod singular_place;
 mod springs;
 
 pub use applied_force::{Applied, applied_forces, body_forces, heat_forces};
-pub use constraint::{Constraint, Constraints, SupportError};
+pub use constraint::{Constraint, Constraints};
 pub use folding::check_folding;
 pub use formula_check::{check_body_forces, check_loads, varies};
 pub use holders::Holders;
@@ -112,6 +112,11 @@ impl Body {
     /// Whether the case gives parts of it.
     pub fn has_parts(&self) -> bool {
         self.parts.iter().any(|part| part.name != self.name)
+    }
+
+    /// What the case calls one of its parts.
+    pub fn key_of(&self, part: &BodyPart) -> String {
+        if part.name == self.name { format!("body.{}", self.name) } else { format!("body.{}.part.{}", self.name, part.name) }
     }
 }
 

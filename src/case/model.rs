@@ -9,15 +9,15 @@ use toml::{Table, Value};
 use super::acting::mean::MeanSupport;
 use super::acting::rigid::{PREFIX, Plate, Tool};
 use super::asked::exact::Exact;
-use super::asked::output::{Output, Probe, UnitNames};
+use super::asked::output::{Output, UnitNames};
 use super::asked::solver::Solver;
 use super::asked::steps::LoadFactor;
 use super::bodies::geometry::Geometry;
 use super::bodies::mesh::MeshChoice;
 use super::contact::sides::{Union, parts};
 use super::patterns::Matched;
-use crate::accuracy::Accuracy;
-use crate::body::{Body, Load, MeanHold, PointLoad, RigidSet, Springs, Support};
+use crate::accuracy::{Accuracy, ProbePoint};
+use crate::body::{Body, BodyPart, Load, MeanHold, PointLoad, RigidSet, Springs, Support};
 use crate::contact::Pair;
 use crate::element::Plane;
 use crate::geometry::Point;
@@ -79,7 +79,7 @@ pub struct Case {
     /// What is written of the result.
     pub output: Output,
     /// Points to report.
-    pub probes: Vec<Probe>,
+    pub probes: Vec<ProbePoint>,
     /// Exact or reference values.
     pub exact: Exact,
     /// Load steps, none if everything acts at once; the case itself is that of the last one.
@@ -135,6 +135,11 @@ impl Case {
         parts(&self.unions, side)
     }
 
+    /// The parts of all bodies, each with its body.
+    pub fn parts(&self) -> impl Iterator<Item = (&Body, &BodyPart)> {
+        self.bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (body, part)))
+    }
+
     /// The bodies whose mean motion is held, on the first mesh of the case.
     ///
     /// # Errors
@@ -188,8 +193,7 @@ impl Case {
 
 /// Middle of physical curves: the centre of a whole circle, otherwise the mean place over their length.
 fn middle_of(mesh: &MacroMesh, on: &[String]) -> Point {
-    let edges: BTreeSet<u32> =
-        on.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| boundary.edges.iter().copied()).collect();
+    let edges: BTreeSet<u32> = mesh.edges_on(on).collect();
     centre_of_circle(mesh, &edges).unwrap_or_else(|| mean_place(mesh, &edges))
 }
 

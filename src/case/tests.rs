@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::*;
+use crate::accuracy::ProbePoint;
 use crate::body::{LoadKind, Material};
 use crate::contact::{CurveChoice, GapChoice, Law, MultiplierSpace, Quadrature, SegmentRule};
 use crate::element::Order;
@@ -118,7 +119,7 @@ fn a_full_case_is_read() {
     assert!(matches!(&pair.gap, GapChoice::Formula(gap) if gap.value(&[2.0, 0.0]) == 4e-3));
     assert_eq!(case.solver, Solver { choice: SolverChoice::Direct, tolerance: Tolerance::Residual(1e-10), inf_sup: None });
     assert!(!case.output.fields);
-    assert_eq!(case.probes, [Probe { name: "tip".into(), point: [1.0, 2.0], body: "upper.left".into() }]);
+    assert_eq!(case.probes, [ProbePoint { name: "tip".into(), point: [1.0, 2.0].into(), body: "upper.left".into() }]);
     assert!(case.exact.must_hold);
     assert_eq!(case.exact.energy, Some(Expected { value: 2.6e-3, tolerance: 2e-5 }));
     assert!(matches!(&case.exact.contacts[0].lambda, Some(LambdaExact::Points(exact)) if exact.value == [0.925]));
@@ -225,7 +226,7 @@ fn overrides_win_and_are_checked() {
     assert_eq!((case.bodies[0].parts[0].material.young, case.bodies[1].parts[0].material.poisson), (8e6, 0.0));
     assert_eq!((&case.contacts[0].segments, case.mesh.refine, case.title.as_str()), (&SegmentRule::Auto, 2, "a = b"));
     assert!(matches!(&case.contacts[0].gap, GapChoice::Formula(gap) if gap.as_constant() == Some(-1e-3)));
-    assert_eq!(case.probes[1], Probe { name: "new".into(), point: [0.0, 1.0], body: "lower".into() });
+    assert_eq!(case.probes[1], ProbePoint { name: "new".into(), point: [0.0, 1.0].into(), body: "lower".into() });
     assert!(matches!(&case.loads[0].kind, LoadKind::Pressure(p) if p.text() == "2*x"));
 
     for (text, expected) in [

@@ -148,6 +148,15 @@ impl ContactBoundary {
         })
     }
 
+    /// Gauss points of all segments in the parameter, `count` on each: segment, fraction of it and parameter where one stands, and the
+    /// length that it stands for.
+    pub fn gauss_by_parameter(&self, count: usize) -> impl Iterator<Item = (usize, f64, f64, f64)> {
+        self.knots.windows(2).enumerate().flat_map(move |(k, ends)| {
+            let at = move |z: f64| ends[0] + z * (ends[1] - ends[0]);
+            gauss_points(count).iter().map(move |(z, weight)| (k, *z, at(*z), weight * (ends[1] - ends[0]) * self.speed(at(*z))))
+        })
+    }
+
     /// Whether it is a straight line by its kind.
     pub fn is_straight(&self) -> bool {
         self.curve.is_line()

@@ -13,7 +13,7 @@ use super::pair::Quadrature;
 use super::quadrature::quadrature_points;
 use super::side::Side;
 use super::trace::trace;
-use crate::geometry::{Coordinates, Curve, Formula, Point, gauss_points};
+use crate::geometry::{Coordinates, Curve, Formula, Point};
 use crate::mesh::{BoundaryEdge, EdgeNode};
 
 /// One entry of the coupling: multiplier `i`, node `j`, and `± ∫ψ_i N_j n ds` (length), + for body 1, - for body 2. In bodies of
@@ -127,15 +127,11 @@ const BESIDE: f64 = 1e-9;
 pub fn declared_gap(boundary: &ContactBoundary, multipliers: &Multipliers, formula: &Formula) -> Result<Vec<f64>, String> {
     check_ends(boundary, formula)?;
     let mut gap = vec![0.0; multipliers.count()];
-    for (k, ends) in boundary.knots().windows(2).enumerate() {
-        for (z, weight) in gauss_points(10) {
-            let t = ends[0] + z * (ends[1] - ends[0]);
-            let x = boundary.point(t);
-            let (rows, values) = multipliers.on_segment(k, *z);
-            let declared = formula.finite_value(x)?;
-            for a in 0..multipliers.per_segment() {
-                gap[rows[a]] += weight * (ends[1] - ends[0]) * boundary.speed(t) * boundary.width(t) * values[a] * declared;
-            }
+    for (k, z, t, length) in boundary.gauss_by_parameter(10) {
+        let (rows, values) = multipliers.on_segment(k, z);
+        let declared = formula.finite_value(boundary.point(t))?;
+        for a in 0..multipliers.per_segment() {
+            gap[rows[a]] += length * boundary.width(t) * values[a] * declared;
         }
     }
     Ok(gap)

@@ -55,7 +55,7 @@ pub use jump_term::{Jump, SparseRows, jump_matrix, jumps};
 pub use multiplier::{DiagonalBlock, Multipliers};
 pub use pair::{Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Stabilise};
 pub use penetration::{Penetration, penetration};
-pub use placing::{Known, Placed, PlacingError, place};
+pub use placing::{Known, Placed, place};
 pub use pressure::{Roughness, Zone, faded_end, oscillation, recovered_peak, roughness, true_end, zone_counts};
 pub use sets::{ActiveSet, SetChange, SetSolution};
 pub use side::Side;

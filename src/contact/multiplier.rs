@@ -2,7 +2,6 @@
 
 use super::contact_boundary::ContactBoundary;
 use super::pair::MultiplierSpace;
-use crate::geometry::gauss_points;
 use std::ops::Range;
 
 /// Strength of the augmentation, `γ = α E_c / H`: a flat optimum, for every pair of spaces and up to three ranks.
@@ -73,15 +72,11 @@ impl Multipliers {
             Self { space, alpha: ALPHA, lengths, integrals: Vec::new(), widths: Vec::new(), closed: boundary.is_closed() };
         let mut plain = vec![0.0; multipliers.count()];
         multipliers.integrals = plain.clone();
-        for (k, ends) in boundary.knots().windows(2).enumerate() {
-            for (z, weight) in gauss_points(10) {
-                let t = ends[0] + z * (ends[1] - ends[0]);
-                let (ds, width) = (weight * (ends[1] - ends[0]) * boundary.speed(t), boundary.width(t));
-                let (rows, values) = multipliers.on_segment(k, *z);
-                for a in 0..2 {
-                    plain[rows[a]] += ds * values[a];
-                    multipliers.integrals[rows[a]] += ds * width * values[a];
-                }
+        for (k, z, t, length) in boundary.gauss_by_parameter(10) {
+            let (rows, values) = multipliers.on_segment(k, z);
+            for a in 0..2 {
+                plain[rows[a]] += length * values[a];
+                multipliers.integrals[rows[a]] += length * boundary.width(t) * values[a];
             }
         }
         multipliers.widths = multipliers.integrals.iter().zip(plain).map(|(whole, plain)| whole / plain).collect();

@@ -9,16 +9,6 @@ use crate::contact::fit::{Meeting, PointContact, stray};
 use crate::geometry::{Coordinates, Curve, Point};
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering};
 
-/// Why no contact boundary can be placed: the key of the case, and words.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("contact.{pair}: {words}")]
-pub struct PlacingError {
-    /// Name of the pair.
-    pub pair: String,
-    /// What is wrong and what to do.
-    pub words: String,
-}
-
 /// What is known of a contact boundary from the last time it was placed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Known {
@@ -52,7 +42,7 @@ pub struct Placed {
 /// to their nodes moved by `displacement`. The same on every rank.
 ///
 /// # Errors
-/// [`PlacingError`] if the boundaries are not straight or do not share a geometry, as the pair claims, or do not overlap.
+/// Words, if the boundaries are not straight or do not share a geometry, as the pair claims, or do not overlap.
 pub fn place(
     mesh: &MacroMesh,
     numbering: &Numbering,
@@ -60,28 +50,27 @@ pub fn place(
     young: [f64; 2],
     known: &Known,
     displacement: Displacement,
-) -> Result<Placed, PlacingError> {
-    let error = |words: String| PlacingError { pair: pair.name.clone(), words };
+) -> Result<Placed, String> {
     let sides = [0, 1].map(|k| mesh.edges_of(&pair.between[k]));
     let mut fitted = None;
     let (curve, limits) = match pair.curve {
         CurveChoice::Fit | CurveChoice::Own(_) => {
             let mut smooth = SmoothSide::of_pair(mesh, numbering, pair, displacement);
-            let mut meeting = known.meeting.clone().map_or_else(|| Meeting::at_rest(&smooth, pair), Ok).map_err(error)?;
+            let mut meeting = known.meeting.clone().map_or_else(|| Meeting::at_rest(&smooth, pair), Ok)?;
             meeting.begin(&mut smooth);
-            let curve_and_limits = meeting.curve(&smooth, pair, known.ends.unwrap_or(meeting.ends)).map_err(error)?;
+            let curve_and_limits = meeting.curve(&smooth, pair, known.ends.unwrap_or(meeting.ends))?;
             fitted = Some((meeting, smooth));
             curve_and_limits
         }
-        CurveChoice::Line => line_between(mesh, pair, sides).map_err(error)?,
-        CurveChoice::Geometry => shared_geometry(mesh, pair, sides).map_err(error)?,
+        CurveChoice::Line => line_between(mesh, pair, sides)?,
+        CurveChoice::Geometry => shared_geometry(mesh, pair, sides)?,
     };
     let wanted = known.ends.or(fitted.as_ref().map(|(meeting, _)| meeting.ends)).unwrap_or(limits);
     let goes_round = curve.period().is_some_and(|period| limits[1] - limits[0] > (1.0 - 1e-9) * period);
     let limits = if goes_round { [f64::NEG_INFINITY, f64::INFINITY] } else { limits };
     let range = [wanted[0].max(limits[0]), wanted[1].min(limits[1])];
     if range[1] - range[0] <= 1e-9 * (wanted[1] - wanted[0]) {
-        return Err(error("the two boundaries face each other nowhere over a length".into()));
+        return Err("the two boundaries face each other nowhere over a length".into());
     }
     let middle = curve.point(0.5 * (range[0] + range[1]));
     let mut edges = all_edges(mesh, numbering, pair, displacement);
@@ -90,24 +79,24 @@ pub fn place(
             *edges = std::mem::take(edges).into_iter().map(|edge| edge.moved(|_| shift)).collect();
         }
     }
-    check_count(pair, &edges).map_err(error)?;
+    check_count(pair, &edges)?;
     let nearest = edges[0].iter().min_by(|a, b| {
         let away = |edge: &BoundaryEdge| (0.5 * (edge.points[0] + edge.points[1]) - middle).norm();
         away(a).total_cmp(&away(b))
     });
-    let Some(nearest) = nearest else { return Err(error(format!("\"{}\" has no edges", pair.between[0]))) };
+    let Some(nearest) = nearest else { return Err(format!("\"{}\" has no edges", pair.between[0])) };
     let mut boundary = ContactBoundary::new(curve, range, nearest.outward()).in_plane(mesh.plane);
-    check_grading(pair, &boundary).map_err(error)?;
+    check_grading(pair, &boundary)?;
     if pair.curve.is_found() {
         let [of_first, of_second] = &mut edges;
         of_first.retain(|edge| lies_at(&boundary, Side::First, edge));
         of_second.retain(|edge| lies_at(&boundary, Side::Second, edge));
     } else {
-        check_cover(mesh, pair, sides, &boundary).map_err(error)?;
+        check_cover(mesh, pair, sides, &boundary)?;
     }
     boundary.cut(&fractions(&edges, numbering.level.order, pair, young, &boundary, known.segments));
     if let Some((meeting, smooth)) = fitted.as_ref().filter(|_| pair.curve == CurveChoice::Fit) {
-        check_stray(meeting.sides(smooth), &boundary, pair).map_err(error)?;
+        check_stray(meeting.sides(smooth), &boundary, pair)?;
     }
     Ok(Placed { boundary, limits, meeting: fitted.map(|(meeting, _)| meeting), edges })
 }

@@ -1,7 +1,5 @@
 //! Why there is no system.
 
-use crate::body::SupportError;
-use crate::contact::PlacingError;
 use crate::element::BadJacobian;
 use crate::petsc::{self, Session};
 
@@ -25,15 +23,9 @@ impl From<BadJacobian> for SystemError {
     }
 }
 
-impl From<PlacingError> for SystemError {
-    fn from(error: PlacingError) -> Self {
-        Self::Case(error.to_string())
-    }
-}
-
-impl From<SupportError> for SystemError {
-    fn from(error: SupportError) -> Self {
-        Self::Case(error.0)
+impl From<String> for SystemError {
+    fn from(words: String) -> Self {
+        Self::Case(words)
     }
 }
 
@@ -42,5 +34,5 @@ impl From<SupportError> for SystemError {
 /// # Errors
 /// [`SystemError::Case`] with the words of the first rank that has any.
 pub fn agreed<T>(session: &Session, outcome: Result<T, SystemError>) -> Result<T, SystemError> {
-    session.agree(outcome).map_err(SystemError::Case)
+    Ok(session.agree(outcome)?)
 }

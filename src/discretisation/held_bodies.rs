@@ -61,7 +61,7 @@ impl HeldBodies {
             }
             add_triangle(triangle, hold)
         });
-        session.agree(added.map_err(SystemError::from)).map_err(SystemError::Case)?;
+        session.agree(added.map_err(SystemError::from))?;
         let nodes = places.into_iter().map(|(node, (hold, x))| (node, hold, x)).collect();
         let (all, inverses, asked, off) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut bodies = Self { about, nodes, moments: moments.sum(session), off, all, inverses, asked };
@@ -153,8 +153,7 @@ pub fn held_motions(scene: &Scene, space: &Space, about: &[Point], displacement:
         let u = own.map(|at| space.to_global(node, Point::new(displacement[at], displacement[at + 1])));
         u.map_or(0.0, |u| u.dot(&anchor.direction))
     };
-    let mut all: Vec<f64> = scene.means.iter().flat_map(|hold| &hold.anchors).map(moved).collect();
-    session.sum(&mut all);
+    let all: Vec<f64> = session.sum(scene.means.iter().flat_map(|hold| &hold.anchors).map(moved).collect());
     let mut all = all.into_iter();
     let solve = |(hold, about): (&MeanHold, &Point)| {
         let anchors = &hold.anchors;

@@ -25,8 +25,7 @@ impl Space {
     /// [`SystemError::Case`] if supports contradict each other.
     pub fn new(scene: &Scene, level: Level, partition: &Rc<Partition>, rank: usize) -> Result<Self, SystemError> {
         let numbering = Numbering::new(level, partition);
-        let constraints = Constraints::new(&scene.mesh, &numbering, &scene.supports, &scene.means, &scene.rigid);
-        let constraints = constraints.map_err(|e| SystemError::Case(e.0))?;
+        let constraints = Constraints::new(&scene.mesh, &numbering, &scene.supports, &scene.means, &scene.rigid)?;
         let own = numbering.range(rank);
         Ok(Self { numbering, constraints, own })
     }
@@ -56,6 +55,14 @@ impl Space {
             }
         }
         values
+    }
+
+    /// Unknowns of this rank that are prescribed, counted from its first, with their values.
+    pub fn fixed(&self) -> impl Iterator<Item = (usize, f64)> {
+        let own = self.constraints.iter().filter(|(node, _)| self.own.contains(node));
+        own.flat_map(move |(node, of)| {
+            (0..2).filter(|&k| of.fixed[k]).map(move |k| (2 * (node - self.own.start) + k, of.value[k]))
+        })
     }
 
     /// A force on a node, in its frame, with the part on prescribed components left out.

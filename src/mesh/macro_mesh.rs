@@ -1,7 +1,7 @@
 //! The mesh of the file: triangles of named bodies, edges, named boundaries.
 
 use super::MeshError;
-use super::edge_shape::EdgeShape;
+use super::curve_piece::CurvePiece;
 use super::file_place::FilePlace;
 use super::loose_curve::LooseCurve;
 use super::raw_mesh::{RawMesh, RawTriangle};
@@ -56,13 +56,13 @@ pub struct MacroEdge {
     /// Macro triangles beside it: one on a boundary, two inside a body.
     pub triangles: [Option<u32>; 2],
     /// True shape, where it is not straight.
-    pub shape: Option<Box<EdgeShape>>,
+    pub shape: Option<Box<CurvePiece>>,
 }
 
 impl MacroEdge {
     /// Bends the edge onto a curve, whose parameters at the vertices `ends` are `range`.
     pub fn bend(&mut self, ends: [u32; 2], curve: Arc<Curve>, [from, to]: [f64; 2]) {
-        self.shape = Some(Box::new(EdgeShape { curve, range: if self.vertices == ends { [from, to] } else { [to, from] } }));
+        self.shape = Some(Box::new(CurvePiece { curve, range: if self.vertices == ends { [from, to] } else { [to, from] } }));
     }
 }
 
@@ -345,6 +345,12 @@ impl MacroMesh {
     /// Places of the ends of a macro edge.
     pub fn edge_ends(&self, edge: u32) -> [Point; 2] {
         self.edges[edge as usize].vertices.map(|vertex| self.vertices[vertex as usize])
+    }
+
+    /// The point on the chord of a macro edge that is nearest to a point.
+    pub fn foot_on_chord(&self, edge: u32, x: Point) -> Point {
+        let [a, b] = self.edge_ends(edge);
+        a + ((x - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0) * (b - a)
     }
 
     /// Straight length of a macro edge.

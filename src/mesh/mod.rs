@@ -52,13 +52,14 @@
 //! read, distribute and refine to 1 million triangles, and gave NaN coordinates for second-order Gmsh files.
 
 mod chain;
+mod curve_piece;
 mod curved;
 mod each_once;
-mod edge_shape;
 mod edges;
 mod faults;
 mod file;
 mod file_place;
+mod kept;
 pub mod lattice;
 mod levels;
 mod located;
@@ -75,11 +76,11 @@ mod spot;
 mod tools;
 
 pub use chain::Stretch;
+pub use curve_piece::CurvePiece;
 pub use curved::{BoundaryVertex, Corner, SmoothNormals, SmoothPoint};
 pub use each_once::each_once;
-pub use edge_shape::EdgeShape;
 pub use faults::Slit;
-pub use file::{parse_gmsh, parse_joined, read_bytes, read_gmsh, read_regular, surfaces, touching_surfaces};
+pub use file::{parse_gmsh, read_bytes, read_regular, surfaces, touching_surfaces};
 pub use file_place::FilePlace;
 pub use levels::{BoundaryEdge, EdgeNode, Level, Numbering, Shapes, TriangleNumbers, levels};
 pub use loose_curve::LooseCurve;
@@ -87,7 +88,6 @@ pub use macro_mesh::{BodyPiece, Boundary, MacroEdge, MacroMesh, MacroTriangle, R
 pub use partition::{Graph, Partition, middle_of_group};
 pub use refined::{BisectedMesh, Cells, Origin};
 pub use spot::{NamedPoint, Spot};
-pub use tools::SurfacePart;
 
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,7 @@
 //! What a mesh file says, before it is checked and connected.
 
 use super::file_place::FilePlace;
+use super::kept::Kept;
 use super::loose_curve::LooseCurve;
 use crate::geometry::Point;
 use std::collections::{HashMap, HashSet};
@@ -42,28 +43,18 @@ impl RawMesh {
 
     /// Leaves out the points of the geometry that no triangle uses (centres of circles, say), and the curves that have no others.
     pub fn drop_loose_vertices(&mut self) {
-        let mut used = vec![false; self.vertices.len()];
-        self.triangles.iter().flat_map(|triangle| triangle.corners).for_each(|corner| used[corner as usize] = true);
-        self.leave_out_curves(&used);
-        let mut new = vec![u32::MAX; self.vertices.len()];
-        let mut count = 0;
-        for (vertex, used) in used.iter().enumerate() {
-            if *used {
-                self.vertices[count] = self.vertices[vertex];
-                new[vertex] = count as u32;
-                count += 1;
-            }
-        }
-        self.vertices.truncate(count);
+        let kept = Kept::new(self.vertices.len(), self.triangles.iter().flat_map(|triangle| triangle.corners));
+        self.leave_out_curves(&kept);
+        self.vertices = kept.of(&self.vertices);
         // A line whose end no triangle uses keeps an index that no edge has, and is refused with words.
         let ends = self.lines.iter_mut().flat_map(|(_, ends, _)| ends).chain(self.midsides.iter_mut().flat_map(|(ends, _)| ends));
         ends.chain(self.triangles.iter_mut().flat_map(|triangle| &mut triangle.corners))
-            .for_each(|end| *end = new[*end as usize]);
+            .for_each(|end| *end = kept.at(*end).unwrap_or(u32::MAX));
     }
 
-    /// Sets aside the curves that have no line between two nodes that are `used`.
-    fn leave_out_curves(&mut self, used: &[bool]) {
-        let joins_triangles = |ends: &[u32; 2]| ends.iter().all(|&end| used[end as usize]);
+    /// Sets aside the curves that have no line between two nodes that are `kept`.
+    fn leave_out_curves(&mut self, kept: &Kept) {
+        let joins_triangles = |ends: &[u32; 2]| ends.iter().all(|&end| kept.at(end).is_some());
         let bound: HashSet<String> =
             self.lines.iter().filter(|(_, ends, _)| joins_triangles(ends)).map(|(name, ..)| name.clone()).collect();
         for (name, ends, _) in self.lines.extract_if(.., |(name, ..)| !bound.contains(name)) {

@@ -27,22 +27,24 @@ impl Session {
         all
     }
 
-    /// Replaces each value by its sum over the ranks, bit for bit the same on every rank. **Collective**
-    pub fn sum(&self, values: &mut [f64]) {
-        let root = self.world().process_at_rank(0);
-        let here = values.to_vec();
+    /// Each value with its sum over the ranks in its place, bit for bit the same on every rank. **Collective**
+    pub fn sum<V: AsMut<[f64]>>(&self, mut values: V) -> V {
+        let (root, sums) = (self.world().process_at_rank(0), values.as_mut());
+        let here = sums.to_vec();
         if self.rank() == 0 {
-            root.reduce_into_root(&here[..], values, SystemOperation::sum());
+            root.reduce_into_root(&here[..], sums, SystemOperation::sum());
         } else {
             root.reduce_into(&here[..], SystemOperation::sum());
         }
-        root.broadcast_into(values);
+        root.broadcast_into(sums);
+        values
     }
 
-    /// Replaces each value by its maximum over the ranks. **Collective**
-    pub fn max(&self, values: &mut [f64]) {
-        let here = values.to_vec();
-        self.world().all_reduce_into(&here[..], values, SystemOperation::max());
+    /// Each value with its maximum over the ranks in its place. **Collective**
+    pub fn max<V: AsMut<[f64]>>(&self, mut values: V) -> V {
+        let here = values.as_mut().to_vec();
+        self.world().all_reduce_into(&here[..], values.as_mut(), SystemOperation::max());
+        values
     }
 
     /// Number of ranks on the machine of this one, which share its memory. **Collective**

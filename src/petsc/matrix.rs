@@ -95,11 +95,6 @@ impl Matrix {
         petsc!(MatAssemblyEnd(self.raw, ffi::MatAssemblyType::MAT_FINAL_ASSEMBLY))
     }
 
-    /// Sets every stored entry to zero and keeps the pattern. **Collective**
-    pub fn zero_entries(&mut self) -> Result<()> {
-        petsc!(MatZeroEntries(self.raw))
-    }
-
     /// `y = A x`. **Collective**
     pub fn multiply(&self, x: &Vector, y: &mut Vector) -> Result<()> {
         petsc!(MatMult(self.raw, x.raw, y.raw))
@@ -141,22 +136,6 @@ impl Matrix {
         let (mut rows, mut columns) = (0, 0);
         petsc!(MatGetSize(self.raw, &mut rows, &mut columns)).expect("a matrix knows its size");
         (rows as usize, columns as usize)
-    }
-
-    /// Stored entries on all ranks. **Collective**
-    pub fn nonzeros(&self) -> Result<usize> {
-        Ok(self.information()?.nz_used as usize)
-    }
-
-    /// Entries on all ranks that were asked for and have not been used. **Collective**
-    pub fn wasted(&self) -> Result<usize> {
-        Ok(self.information()?.nz_unneeded as usize)
-    }
-
-    fn information(&self) -> Result<ffi::MatInfo> {
-        let mut information = ffi::MatInfo::default();
-        petsc!(MatGetInfo(self.raw, ffi::MatInfoType::MAT_GLOBAL_SUM, &mut information))?;
-        Ok(information)
     }
 
     /// Tells solvers that the matrix is symmetric, or not.

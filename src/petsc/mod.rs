@@ -43,7 +43,7 @@ pub use krylov::{Krylov, KrylovEnding};
 pub use matrix::Matrix;
 pub use partition::partition;
 pub use preconditioner::Preconditioner;
-pub use session::{Session, end_all_ranks};
+pub use session::{Session, end_all_ranks, is_name};
 pub use shell::{Action, Operator, ReplacedAction};
 pub use stage::{Stage, StageGuard};
 pub use vector::Vector;

@@ -125,11 +125,6 @@ impl Session {
         self.0.world.size() as usize
     }
 
-    /// Waits for all ranks. **Collective**
-    pub fn barrier(&self) {
-        self.0.world.barrier();
-    }
-
     /// Ends all ranks at once with this exit code.
     pub fn abort(&self, code: i32) -> ! {
         the_end_is_ours(false);
@@ -199,7 +194,7 @@ fn refuse_unequal_words(world: &SimpleCommunicator) -> Result<()> {
 }
 
 /// Whether a word of the command line is the name of an option: one or two minuses and a letter.
-pub(super) fn is_name(word: &str) -> bool {
+pub fn is_name(word: &str) -> bool {
     let rest = word.strip_prefix("--").or_else(|| word.strip_prefix('-'));
     rest.is_some_and(|rest| rest.starts_with(|first: char| first.is_ascii_alphabetic()))
 }

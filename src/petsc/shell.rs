@@ -190,9 +190,7 @@ unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Cod
 unsafe extern "C" fn norm(matrix: ffi::Mat, kind: ffi::NormType, norm: *mut f64) -> Code {
     act_by(matrix, |action, session| {
         assert_eq!(kind, ffi::NormType::NORM_INFINITY, "the one norm that shells have");
-        let mut largest = [action.norm_infinity()?];
-        session.max(&mut largest);
-        unsafe { *norm = largest[0] };
+        unsafe { [*norm] = session.max([action.norm_infinity()?]) };
         Ok(())
     })
 }

@@ -99,7 +99,8 @@ impl Procedure<'_> {
         let goals = &sequence.adaptation.accuracy.goals;
         // What is estimated on a boundary that still moves is of another scene.
         let stands = solved.ending.is_converged() && solved.ending.still_moved().is_none_or(|way| way <= MOVES);
-        let errors = if stands { self.goal_errors(goals, solved)? } else { vec![None; goals.len()] };
+        let error = |goal: &Goal| if stands { self.goal_error(goal, solved) } else { Ok(None) };
+        let errors = goals.iter().map(error).collect::<Result<_, _>>()?;
         let adapted = AdaptedMesh {
             number: sequence.adaptation.meshes.len() + 1,
             macro_triangles: sequence.scene.mesh.triangles.len(),
@@ -147,7 +148,6 @@ impl Procedure<'_> {
         // A rank may have no macro triangle: all of them know whether there is a difference.
         let Estimate { local: left, falls, energy_falls, difference, foreseen, .. } = &solved.estimate;
         let (scene, adaptation) = (&sequence.scene, &sequence.adaptation);
-        let errors = adaptation.meshes.last().map(|mesh| mesh.errors.as_slice()).unwrap_or(&[]);
         let mut all = Vec::new();
         let mut duals = self.duals(adaptation, solved)?.into_iter();
         for (place, goal) in adaptation.missed() {
@@ -155,7 +155,7 @@ impl Procedure<'_> {
                 Some(dual) if difference.is_some() => weighted(&solved.problem, left, &dual, self.session)?,
                 _ => left.clone(),
             };
-            let error = errors.get(place).copied().flatten();
+            let error = adaptation.error(place);
             let (falls, error) = match goal.quantity {
                 Quantity::Energy => (energy_falls, foreseen.or(error)),
                 _ => (falls, error),

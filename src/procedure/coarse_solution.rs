@@ -76,9 +76,7 @@ impl CoarseSolution {
     /// # Errors
     /// [`SystemError::Case`] if a contact boundary cannot be placed or measured on that mesh.
     pub fn refined(&self, scene: Scene, session: &Session) -> Result<(Discretisation, Start), SystemError> {
-        let spaces = spaces(&scene, session.rank())?;
-        let displacement = self.displacement(&scene, &spaces[spaces.len() - 1], session.rank());
-        self.contact.start_on(scene, spaces, displacement, session)
+        self.contact.start_on(scene, |scene, space| self.displacement(scene, space, session.rank()), session)
     }
 
     /// The pressure on a contact.
@@ -111,7 +109,7 @@ impl ContactSolution {
         Self { contacts, multipliers, active, is_refined, preconditioning, is_hard }
     }
 
-    /// Another mesh, displaced by `displacement` (this rank's unknowns in the nodes' frames), with the contacts where this
+    /// Another mesh, displaced as `displaced` says (this rank's unknowns in the nodes' frames), with the contacts where this
     /// solution says, and where to start on it. **Collective**
     ///
     /// # Errors
@@ -119,11 +117,13 @@ impl ContactSolution {
     pub fn start_on(
         &self,
         scene: Scene,
-        spaces: Vec<Space>,
-        displacement: Vec<f64>,
+        displaced: impl FnOnce(&Scene, &Space) -> Vec<f64>,
         session: &Session,
     ) -> Result<(Discretisation, Start), SystemError> {
-        let (contacts, motion) = self.contacts(&scene, &spaces[spaces.len() - 1], &displacement, session)?;
+        let spaces = spaces(&scene, session.rank())?;
+        let space = &spaces[spaces.len() - 1];
+        let displacement = displaced(&scene, space);
+        let (contacts, motion) = self.contacts(&scene, space, &displacement, session)?;
         let problem = Discretisation::with(scene, spaces, contacts, motion, session)?;
         let (pressures, active) = self.multipliers(&problem.contacts);
         Ok((problem, Start { displacement, pressures, active }))

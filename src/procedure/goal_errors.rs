@@ -21,13 +21,9 @@ const WORTH: f64 = 0.32;
 const ROUNDING: f64 = 1e-6;
 
 impl Procedure<'_> {
-    /// The estimated relative error of each goal; nothing where there is not enough to tell. **Collective**
-    pub(super) fn goal_errors(&self, goals: &[Goal], solved: &Solved) -> Result<Vec<Option<f64>>, SystemError> {
-        goals.iter().map(|goal| self.goal_error(goal, solved)).collect()
-    }
-
-    /// Of one goal: nothing where it would be reached, but its contact presses on less than an edge. **Collective**
-    fn goal_error(&self, goal: &Goal, solved: &Solved) -> Result<Option<f64>, SystemError> {
+    /// The estimated relative error of a goal; nothing where there is not enough to tell, or where it would be reached, but its
+    /// contact presses on less than an edge. **Collective**
+    pub(super) fn goal_error(&self, goal: &Goal, solved: &Solved) -> Result<Option<f64>, SystemError> {
         let error = self.estimated_error(goal, solved)?;
         let contact = goal.quantity.contact().and_then(|name| contact_called(&solved.problem, name));
         let is_reached = error.is_some_and(|error| error <= goal.tolerance);
@@ -120,8 +116,7 @@ impl Procedure<'_> {
         let points = trace_points(problem, &pressure, &u, self.session)?;
         let zones = pressure.zones();
         let all = estimate.of_zones(at, &pressure, &zones, &points);
-        let counting = all.iter().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts);
-        let errors: Option<Vec<f64>> = counting.map(|((zone, _), _)| zone.pressure).collect();
+        let errors: Option<Vec<f64>> = pressure.counting(&zones, &all).map(|(zone, _)| zone.pressure).collect();
         if zones.is_empty() {
             // Where nothing presses, the force is all that there is to know of λ.
             return Ok(estimate.force.get(at).copied().flatten());
@@ -156,8 +151,7 @@ impl Procedure<'_> {
             least / pressure.peak_of(zone)
         };
         let zones = pressure.zones();
-        let counting = zones.iter().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts);
-        let Some(smallest) = counting.map(|(zone, _)| smallest(zone)).reduce(f64::min) else { return Ok(true) };
+        let Some(smallest) = pressure.counting(&zones, &zones).map(smallest).reduce(f64::min) else { return Ok(true) };
         Ok(self.pressure_error(solved, at)?.is_some_and(|error| error < smallest.min(MOST_UNKNOWN)))
     }
 

@@ -1,6 +1,6 @@
 //! What the solution on one adapted mesh says of the next one, which has other macro triangles.
 
-use crate::discretisation::{Discretisation, Field, Scene, Solution, Space, SystemError, spaces};
+use crate::discretisation::{Discretisation, Field, Scene, Solution, Space, SystemError};
 use crate::geometry::Point;
 use crate::mesh::{Origin, lattice};
 use crate::petsc::Session;
@@ -36,9 +36,7 @@ impl<'s> Predecessor<'s> {
     /// # Errors
     /// [`SystemError::Case`] if a contact boundary cannot be placed or measured on that mesh.
     pub fn start_on(&self, scene: Scene, session: &Session) -> Result<(Discretisation, Start), SystemError> {
-        let spaces = spaces(&scene, session.rank())?;
-        let displacement = self.displacement(&scene, &spaces[spaces.len() - 1], session);
-        self.contact.start_on(scene, spaces, displacement, session)
+        self.contact.start_on(scene, |scene, space| self.displacement(scene, space, session), session)
     }
 
     /// Squares of the shares that are left of the difference of a solution on the next mesh from a coarser one there, on each macro

@@ -78,8 +78,7 @@ impl Freedoms {
     pub fn new(scene: &Scene, numbering: &Numbering) -> Result<Self, SystemError> {
         let mesh = &scene.mesh;
         // Held means have no anchors here: they are equations of the programme.
-        let constraints = Constraints::new(mesh, numbering, &scene.supports, &[], &scene.rigid);
-        let constraints = constraints.map_err(|error| SystemError::Case(error.0))?;
+        let constraints = Constraints::new(mesh, numbering, &scene.supports, &[], &scene.rigid)?;
         let mut joined: Vec<usize> = (0..mesh.pieces.len()).collect();
         let mut sets = Vec::new();
         for set in &scene.rigid {

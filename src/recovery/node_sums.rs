@@ -125,8 +125,7 @@ impl NodeSums {
         let pressed = contact_forces_of_nodes(problem, solution);
         let body_of = body_of_nodes(problem, session.rank());
         let (supports, sets) = (&problem.scene.supports, &problem.scene.rigid);
-        let holders =
-            Holders::new(&problem.scene.mesh, &space.numbering, supports).map_err(|error| SystemError::Case(error.0))?;
+        let holders = Holders::new(&problem.scene.mesh, &space.numbering, supports).map_err(SystemError::Case)?;
         // These carry nothing in a solution: what they do carry is missing in the balance of their body.
         let anchors = anchor_nodes(problem);
         let set_of = set_of_nodes(problem);

@@ -18,9 +18,8 @@ type Read<'a> = &'a dyn Fn(&Path) -> Option<String>;
 /// one that can have least. **Collective**
 pub fn left(session: &Session) -> f64 {
     let left = Left::now(session);
-    let mut least = [-left.of_machine.min(left.of_process)];
-    session.max(&mut least);
-    -least[0] * session.size() as f64
+    let [least] = session.max([-left.of_machine.min(left.of_process)]);
+    -least * session.size() as f64
 }
 
 /// Refuses a scene that takes more memory than there is, before any of it is taken; `need` tells the unknowns with so many
@@ -86,12 +85,10 @@ impl Left {
 
     /// What it means that this rank is to take so many bytes, and the others what they say. **Collective**
     fn taken(&self, bytes: f64, session: &Session) -> Taken {
-        let mut sum = [bytes];
-        session.sum(&mut sum);
-        let mean = sum[0] / session.size() as f64;
-        let mut share = [(mean / self.of_machine).max(bytes / self.of_process)];
-        session.max(&mut share);
-        Taken { need: sum[0], share: share[0] }
+        let [need] = session.sum([bytes]);
+        let mean = need / session.size() as f64;
+        let [share] = session.max([(mean / self.of_machine).max(bytes / self.of_process)]);
+        Taken { need, share }
     }
 }
 

@@ -170,7 +170,7 @@ fn read_scene(
     }
     let origin = Arc::new(origin);
     interruption::keep_origin(origin.clone());
-    let mesh = reading::input::parse_mesh(case, &bytes, session)?;
+    let mesh = session.agree(reading::scene::read_mesh(case, &bytes)).map_err(RunError::Input)?;
     verdict::warnings::before::slits(&mesh).iter().for_each(|words| report.warn(words));
     Ok((reading::scene::spread(case, mesh, session)?, origin))
 }

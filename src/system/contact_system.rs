@@ -2,7 +2,7 @@
 
 use crate::discretisation::{Discretisation, Space, SystemError};
 use crate::multigrid::{Interpolation, LatticeOperator, Stiffness};
-use crate::petsc::{Matrix, Session, Vector, options};
+use crate::petsc::{Matrix, Session, Vector};
 use crate::system::choice::SolverChoice;
 use crate::system::rigid_border::RigidBorder;
 use crate::system::saddle_point::SaddlePoint;
@@ -152,7 +152,7 @@ impl<'a> System<'a> {
         self.bring_solver_up_to_date()?;
         let loads = self.border.as_ref().map(|border| border.loads_of(self.space(), load, &self.session)).unwrap_or_default();
         let given = [loads, vec![0.0; self.motion.len()]];
-        let b = self.blocks.right_hand_side_of(load, gap, &given, self.space())?;
+        let b = self.blocks.right_hand_side_of(|values| values.copy_from_slice(load), gap, &given, self.space())?;
         let mut x = self.unknowns.duplicate()?;
         x.set(0.0)?;
         self.solver.solve(&self.blocks, &b, &mut x, None, tolerance)?;
@@ -225,11 +225,7 @@ impl<'a> System<'a> {
     pub fn displacement(&self) -> Vec<f64> {
         let space = self.space();
         let mut displacement = self.with_free_displacement(<[f64]>::to_vec);
-        for (node, constraint) in space.constraints.iter().filter(|(node, _)| space.own.contains(node)) {
-            for k in (0..2).filter(|&k| constraint.fixed[k]) {
-                displacement[2 * (node - space.own.start) + k] = constraint.value[k];
-            }
-        }
+        space.fixed().for_each(|(at, value)| displacement[at] = value);
         if let Some(border) = &self.border {
             border.displace(space, &self.motion, &mut displacement);
         }
@@ -239,20 +235,20 @@ impl<'a> System<'a> {
     /// Largest displacement of a node along an axis of its frame (length). **Collective**
     pub fn largest_displacement(&self) -> f64 {
         let larger = |most: f64, value: &f64| most.max(value.abs());
-        let mut most = [if self.border.is_none() {
-            let of_supports = self.space().constraints.iter().filter(|(node, _)| self.space().own.contains(node));
-            let fixed = of_supports.flat_map(|(_, of)| of.fixed.iter().zip(&of.value).filter(|(fixed, _)| **fixed));
-            fixed.map(|(_, value)| value).fold(self.with_free_displacement(|u| u.iter().fold(0.0, larger)), larger)
+        let own = if self.border.is_none() {
+            let free = self.with_free_displacement(|u| u.iter().fold(0.0, larger));
+            self.space().fixed().fold(free, |most, (_, value)| larger(most, &value))
         } else {
             self.displacement().iter().fold(0.0, larger)
-        }];
-        self.session.max(&mut most);
-        most[0]
+        };
+        self.session.max([own])[0]
     }
 
     /// `λ_i = s_i λ̂_i` of all multipliers (stress). **Collective**
     pub fn pressures(&self) -> Vec<f64> {
-        pressures_of(&self.blocks, &self.unknowns.values()[self.space().local_unknowns()..], &self.session)
+        let multipliers = &self.blocks.multipliers;
+        let all = multipliers.collect(&self.unknowns.values()[self.space().local_unknowns()..], &self.session);
+        all.iter().zip(&multipliers.scale).map(|(value, scale)| value * scale).collect()
     }
 
     /// `(B u - c)_i` of all multipliers, active or not, for this rank's displacements (length squared). **Collective**
@@ -291,17 +287,6 @@ impl<'a> System<'a> {
     pub fn solver_name(&self) -> &str {
         &self.solver.name
     }
-
-    /// Options that the user gave and nothing has asked for.
-    pub fn unused_options(&self) -> Result<Vec<String>, SystemError> {
-        Ok(options::unused(&self.session)?)
-    }
-}
-
-/// Pressures of all multipliers (stress), from the scaled ones of this rank. **Collective**
-fn pressures_of(blocks: &SaddlePoint, own: &[f64], session: &Session) -> Vec<f64> {
-    let all = blocks.multipliers.collect(own, session);
-    all.iter().zip(&blocks.multipliers.scale).map(|(value, scale)| value * scale).collect()
 }
 
 /// Puts a start into unknowns; prescribed components are no unknowns, and open multipliers begin from zero.
@@ -309,11 +294,7 @@ fn put(blocks: &SaddlePoint, space: &Space, start: &Start, x: &mut Vector) {
     let unknowns = space.local_unknowns();
     let mut values = x.values_mut();
     values[..unknowns].copy_from_slice(&start.displacement);
-    for (node, constraint) in space.constraints.iter().filter(|(node, _)| space.own.contains(node)) {
-        for k in (0..2).filter(|&k| constraint.fixed[k]) {
-            values[2 * (node - space.own.start) + k] = 0.0;
-        }
-    }
+    space.fixed().for_each(|(at, _)| values[at] = 0.0);
     for (at, &i) in blocks.multipliers.own.iter().enumerate() {
         values[unknowns + at] = if start.active[i] { start.pressures[i] / blocks.multipliers.scale[i] } else { 0.0 };
     }

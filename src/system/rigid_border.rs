@@ -164,8 +164,7 @@ impl RigidBorder {
             }
             self.nodes.push((2 * (node - space.own.start), sets + hold, x));
         }
-        let mut sums: Vec<f64> = pushed.into_iter().chain(means.iter().map(|mean| mean.at_rest)).collect();
-        session.sum(&mut sums);
+        let sums: Vec<f64> = session.sum(pushed.into_iter().chain(means.iter().map(|mean| mean.at_rest)).collect());
         let (pushed, at_rest) = sums.split_at(means.len());
         for (k, (component, mean)) in self.components[first..].iter_mut().zip(means).enumerate() {
             (component.load, component.mean) = (pushed[k], Some(mean.values));
@@ -244,8 +243,7 @@ impl RigidBorder {
                 sums[j] += force.dot(&self.moved(set, j, x));
             }
         }
-        session.sum(&mut sums);
-        sums
+        session.sum(sums)
     }
 
     /// `B R q` of all multipliers.
@@ -280,8 +278,7 @@ fn arm(problem: &Discretisation, set: &RigidSet, places: &BTreeMap<usize, Point>
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let farthest = |x: &mut dyn Iterator<Item = &Point>| x.map(|x| (x - set.about).norm()).fold(0.0, f64::max);
     let mut touched = problem.coupling.rows.iter().flatten().filter_map(|at| places.get(&at.node.number(mesh, numbering)));
-    let mut arms = [farthest(&mut touched), farthest(&mut places.values())];
-    session.max(&mut arms);
+    let arms = session.max([farthest(&mut touched), farthest(&mut places.values())]);
     arms.into_iter().find(|arm| *arm > 0.0).unwrap_or(f64::MIN_POSITIVE)
 }
 

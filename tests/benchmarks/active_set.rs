@@ -30,7 +30,7 @@ fn main() {
     measure(contact::with_contact(bars(Order::P1, 7), MultiplierSpace::P0, 500, Stabilise::Off), &session);
     measure(contact::with_contact(bars(Order::P2, 6), MultiplierSpace::P1Discontinuous, 500, Stabilise::Off), &session);
     let text = meshes::Mesh::long_seam(SEGMENTS / 5).text();
-    let mesh = parse_gmsh(text.as_bytes(), "seam.msh".as_ref()).expect("a mesh");
+    let mesh = parse_gmsh(text.as_bytes(), "seam.msh".as_ref(), Default::default()).expect("a mesh");
     let seam = bars::on(mesh, &session, Order::P1, 3);
     measure(contact::with_contact(seam, MultiplierSpace::P0, SEGMENTS, Stabilise::Off), &session);
 }
@@ -66,7 +66,7 @@ fn measure(scene: Scene, session: &Session) {
 
 /// Wall seconds of the slowest rank.
 fn timed(session: &Session, work: impl FnOnce()) -> f64 {
-    session.barrier();
+    session.any(true);
     let start = Instant::now();
     work();
     let mut seconds = [start.elapsed().as_secs_f64()];

@@ -49,7 +49,7 @@ fn measure(session: &Session, problem: &Discretisation, form: Form, words: &str)
 
 /// Wall seconds of the slowest rank.
 fn timed<T>(session: &Session, work: impl FnOnce() -> T) -> (T, f64) {
-    session.barrier();
+    session.any(true);
     let start = Instant::now();
     let result = work();
     let mut seconds = [start.elapsed().as_secs_f64()];

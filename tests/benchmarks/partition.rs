@@ -29,7 +29,7 @@ fn main() {
     };
     let session = Session::start(&[], &[]).expect("PETSc starts");
     let text = two_bars(columns, rows).text();
-    let mesh = parse_gmsh(text.as_bytes(), "bars.msh".as_ref()).expect("a mesh");
+    let mesh = parse_gmsh(text.as_bytes(), "bars.msh".as_ref(), Default::default()).expect("a mesh");
     for order in [Order::P1, Order::P2] {
         deal(&mesh, order, size, &session);
     }

@@ -216,7 +216,7 @@ fn case() -> Target {
 fn mesh() -> Target {
     let files = of_cases(&|name| name.ends_with(".msh"));
     Target::new("mesh", texts(&files), |text| {
-        parse_gmsh(text, Path::new("a.msh")).map_or_else(|error| short(&error.to_string()), |_| true)
+        parse_gmsh(text, Path::new("a.msh"), Default::default()).map_or_else(|error| short(&error.to_string()), |_| true)
     })
 }
 

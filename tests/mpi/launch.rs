@@ -110,7 +110,7 @@ impl Suite {
         for (name, check) in self.checks.iter().filter(|(name, _)| wanted(name, words)) {
             say(format!("test {name} ... "));
             check(&session);
-            session.barrier();
+            session.any(true);
             say("ok\n".into());
         }
     }

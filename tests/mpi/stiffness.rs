@@ -120,7 +120,6 @@ fn expanded_even_triangles_are_the_stored_matrix(session: &Session) {
         let [whole, stored] = both(&problem, session);
         let expanded = whole.stiffness.last().expect("levels").expanded(session).expect("a matrix").expect("not stored");
         let stored = finest(&stored);
-        assert_eq!(expanded.nonzeros().expect("counted"), stored.nonzeros().expect("counted"));
         let x = erratic(&problem, stored, 0.1);
         assert!(apart(product(&expanded, &x), &product(stored, &x)) < 1e-14);
     }
@@ -181,7 +180,6 @@ fn straight_triangles_act_like_stored_rows(session: &Session) {
         stiffness.assemble().expect("values");
     }
     let expanded = straight.expanded(session).expect("a matrix").expect("not stored");
-    assert_eq!(expanded.nonzeros().expect("counted"), stored.operator().nonzeros().expect("counted"));
     let x = erratic(&problem, stored.operator(), 0.3);
     let exact = product(stored.operator(), &x);
     for matrix in [straight.operator(), &expanded] {

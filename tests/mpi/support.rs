@@ -41,6 +41,16 @@ pub fn laplacian(session: &Session, n: usize, more: impl Fn(usize) -> f64) -> Ma
     })
 }
 
+/// Writes zeros in place of the entries of a [`laplacian`].
+pub fn clear(a: &mut Matrix) {
+    let n = a.size().0;
+    for i in a.row_range() {
+        let columns: Vec<Index> = (i.saturating_sub(1)..(i + 2).min(n)).map(|j| j as Index).collect();
+        a.insert(&[i as Index], &columns, &vec![0.0; columns.len()]).unwrap();
+    }
+    a.assemble().unwrap();
+}
+
 const NODES: usize = 127;
 const POINTS: usize = 3;
 const GAMMA: f64 = 0.5;

@@ -53,7 +53,7 @@ fn problems(session: &Session) -> Vec<Discretisation> {
         with_contact(bars::scene(session, order, refine, false), space, segments, stabilise)
     };
     let text = meshes::Mesh::inclined_bars(6).text();
-    let large = || parse_gmsh(text.as_bytes(), "large.msh".as_ref()).expect("a mesh");
+    let large = || parse_gmsh(text.as_bytes(), "large.msh".as_ref(), Default::default()).expect("a mesh");
     let scenes = [
         bars(Order::P1, 4, P0, 24, Stabilise::Off),
         bars(Order::P1, 2, P0, 30, Stabilise::On),
@@ -562,7 +562,7 @@ fn rows_of_b_are_whole_where_they_are_needed_and_nowhere_else(session: &Session)
 /// The lower bar between bent sides, the upper one straight.
 fn ranks_are_dealt_equal_work(session: &Session) {
     let text = meshes::Mesh::inclined_bars(1).text();
-    let mut mesh = parse_gmsh(text.as_bytes(), "bars.msh".as_ref()).expect("a mesh");
+    let mut mesh = parse_gmsh(text.as_bytes(), "bars.msh".as_ref(), Default::default()).expect("a mesh");
     for (name, slope, start) in [("bottom", 0.0, 0.0), ("lower.seam", 1.0 / 6.0, 3.0)] {
         let formula = format!("{start} + {slope} * t + 0.002 * t * (6 - t)");
         let read = |text: &str| Formula::parse(text, &["t"]).expect("a formula");

@@ -4,7 +4,7 @@ use mezha::body::{Body, Material, Support};
 use mezha::discretisation::{Scene, spread};
 use mezha::element::{Order, Plane};
 use mezha::geometry::Formula;
-use mezha::mesh::{MacroMesh, read_gmsh};
+use mezha::mesh::{MacroMesh, parse_gmsh, read_bytes};
 use mezha::petsc::Session;
 use std::path::Path;
 use std::rc::Rc;
@@ -12,7 +12,7 @@ use std::rc::Rc;
 /// The scene, both bars held sideways at the left; refined towards the left end of the contact line if it is to be graded.
 pub fn scene(session: &Session, order: Order, refine: usize, graded: bool) -> Scene {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/bars_inclined/bars.msh");
-    let mut mesh = read_gmsh(&file).expect("the case's mesh");
+    let mut mesh = parse_gmsh(&read_bytes(&file).expect("the case's file"), &file, Default::default()).expect("the case's mesh");
     if graded {
         mesh.grade([0.0, 3.0].into(), 0.3).expect("a vertex");
     }

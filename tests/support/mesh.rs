@@ -1,5 +1,6 @@
 //! Meshes made in the tests: jittered grids of triangles, written as Gmsh 4.1 text.
 
+use mezha::mesh::{MacroMesh, MeshError, parse_gmsh, read_bytes};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -13,6 +14,11 @@ support.wall = { on = "left", ux = 0.0 }
 load.top = { on = "top", pressure = 1.0 }
 contact.seam = { between = ["lower.seam", "upper.seam"], curve = "line", gap = "closed" }
 "#;
+
+/// The mesh of a Gmsh file.
+pub fn read_gmsh(file: &Path) -> Result<MacroMesh, MeshError> {
+    parse_gmsh(&read_bytes(file)?, file, Default::default())
+}
 
 /// Random numbers in [0, 1), the same in each run (Steele, Lea, Flood: splitmix).
 pub struct Random(pub u64);

@@ -9,7 +9,7 @@ use crate::body::{RigidNodes, RigidSet};
 use crate::case::bodies::geometry::{SURFACE, read_surface};
 use crate::case::keys::{ListForm, POINT, Section, TableRule, ValueForm, declare, entries, key, of, table};
 use crate::geometry::{Curve, Point, cross};
-use crate::mesh::SurfacePart;
+use crate::mesh::CurvePiece;
 
 declare! {
     /// A rigid tool; in `between` it is called `"rigid.NAME"`, see [rigid tools and plates](#rigid-tools-and-plates).
@@ -44,7 +44,7 @@ pub const PREFIX: &str = "rigid.";
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tool {
     /// Its surface; parts follow each other.
-    pub surface: Vec<SurfacePart>,
+    pub surface: Vec<CurvePiece>,
     /// Its motion.
     pub motion: RigidSet,
 }
@@ -56,7 +56,7 @@ impl Tool {
     }
 
     /// The curves of a boundary that it has: all, or one; none of any other boundary.
-    pub fn parts_of(&self, boundary: &str) -> &[SurfacePart] {
+    pub fn parts_of(&self, boundary: &str) -> &[CurvePiece] {
         let part = |number: &str| self.surface.get(number.strip_prefix('.')?.parse::<usize>().ok()?.checked_sub(1)?);
         match boundary.strip_prefix(self.key()) {
             Some("") => &self.surface,
@@ -68,7 +68,7 @@ impl Tool {
     /// The first corner (from 1) that is too blunt to be taken for one, and its angle in degrees: boundaries that turn by less than
     /// 20 degrees are taken for smooth ones.
     pub fn blunt_corner(&self) -> Option<(usize, f64)> {
-        let turn = |pair: &[SurfacePart]| {
+        let turn = |pair: &[CurvePiece]| {
             let (a, b) = (pair[0].curve.tangent(pair[0].range[1]), pair[1].curve.tangent(pair[1].range[0]));
             cross(a, b).atan2(a.dot(&b)).abs().to_degrees()
         };
@@ -132,7 +132,7 @@ pub fn is_one_curve(boundary: &str, root: &Section) -> bool {
 }
 
 /// `line`, `circle`, or `x`, `y`, `t`.
-fn read_parts(section: &Section) -> Option<Vec<SurfacePart>> {
+fn read_parts(section: &Section) -> Option<Vec<CurvePiece>> {
     let kinds = [section.has("line"), section.has("circle"), section.has_any(&["x", "y", "t"])];
     if kinds.iter().filter(|given| **given).count() != 1 {
         let words = "its surface is one of line = [[0, 1], [2, 1]], circle = { centre = [0, 0], radius = 1 }, or x, y, t; give exactly one of them";
@@ -144,20 +144,20 @@ fn read_parts(section: &Section) -> Option<Vec<SurfacePart>> {
     }
     let curve = read_surface(section)?;
     let range = curve.range();
-    Some(vec![SurfacePart { curve, range }])
+    Some(vec![CurvePiece { curve: curve.into(), range }])
 }
 
 /// Two points or more, each joined to the next.
-fn joined(points: Vec<[f64; 2]>) -> Result<Vec<SurfacePart>, String> {
+fn joined(points: Vec<[f64; 2]>) -> Result<Vec<CurvePiece>, String> {
     if let Some(pair) = points.windows(2).find(|pair| pair[0] == pair[1]) {
         return Err(format!("lists the point ({}, {}) twice; list each once", pair[0][0], pair[0][1]));
     }
-    Ok(points.windows(2).map(|pair| SurfacePart { curve: Curve::Line([pair[0], pair[1]]), range: [0.0, 1.0] }).collect())
+    Ok(points.windows(2).map(|pair| CurvePiece { curve: Curve::Line([pair[0], pair[1]]).into(), range: [0.0, 1.0] }).collect())
 }
 
 /// Centre of a circle, otherwise the middle between the ends.
-fn middle(surface: &[SurfacePart]) -> Point {
-    match &surface[0].curve {
+fn middle(surface: &[CurvePiece]) -> Point {
+    match &*surface[0].curve {
         Curve::Circle { centre: [x, y], .. } => Point::new(*x, *y),
         first => {
             let last = &surface[surface.len() - 1];

@@ -1,13 +1,11 @@
 //! `[accuracy]`: relative errors that the mesh is adapted to.
 
-use super::output::Probe;
 use crate::accuracy::{Accuracy, Goal, ProbePoint, Quantity};
 use crate::body::PointLoad;
 use crate::case::keys::{
     ABOVE_ZERO, FormOf, Key, Section, TableRule, ValueForm, declare, either, key, named, number, table, whole, within,
 };
 use crate::contact::{Law, Pair};
-use crate::geometry::Point;
 
 declare! {
     group ROOT;
@@ -90,7 +88,7 @@ const fn goal(name: &'static str) -> Key<f64> {
 type ContactTolerances = [Option<f64>; 4];
 
 /// `accuracy = 1e-4`, or `[accuracy]`; nothing if the case has neither, or if the log knows what is wrong.
-pub fn read_accuracy(root: &Section, contacts: &[Pair], probes: &[Probe]) -> Option<Accuracy> {
+pub fn read_accuracy(root: &Section, contacts: &[Pair], probes: &[ProbePoint]) -> Option<Accuracy> {
     if !root.has("accuracy") {
         return None;
     }
@@ -167,12 +165,9 @@ fn goals_of(pair: &Pair, all: ContactTolerances, own: ContactTolerances) -> impl
 }
 
 /// Goals at one point.
-fn goals_at(probe: &Probe, displacement: Option<f64>, stress: Option<f64>) -> Vec<Goal> {
-    let [x, y] = probe.point;
-    let place = ProbePoint { name: probe.name.clone(), body: probe.body.clone(), point: Point::new(x, y) };
-    let displacement = displacement.map(|tolerance| Goal { quantity: Quantity::Displacement(place.clone()), tolerance });
-    let stress = stress.map(|tolerance| Goal { quantity: Quantity::Stress(place), tolerance });
-    displacement.into_iter().chain(stress).collect()
+fn goals_at(probe: &ProbePoint, displacement: Option<f64>, stress: Option<f64>) -> impl Iterator<Item = Goal> {
+    let displacement = displacement.map(|tolerance| Goal { quantity: Quantity::Displacement(probe.clone()), tolerance });
+    displacement.into_iter().chain(stress.map(|tolerance| Goal { quantity: Quantity::Stress(probe.clone()), tolerance }))
 }
 
 #[cfg(test)]

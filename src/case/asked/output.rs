@@ -1,5 +1,6 @@
 //! `[output]` and `[probe.NAME]`: what is written of the result.
 
+use crate::accuracy::ProbePoint;
 use crate::case::bodies::body::region_names;
 use crate::case::keys::{
     BOOLEAN, Choice, FormOf, ListForm, NAME, POINT, Section, ValueForm, declare, entries, key, of, table, word,
@@ -66,17 +67,6 @@ impl Choice for StressMeasure {
     const MEANINGS: &[Self] = &MEASURES;
 }
 
-/// A point whose displacement and stress are reported.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Probe {
-    /// Name in the case file.
-    pub name: String,
-    /// Where (length).
-    pub point: [f64; 2],
-    /// Body that is asked, or part of one; two of them may touch there.
-    pub body: String,
-}
-
 /// What is said of stresses whose names mean something else, or nothing, in the plane of the case.
 const NOT_OF_REVOLUTION: &str =
     "\"sigma_zz\" may mean two stresses here: write \"sigma_yy\" for that along the axis, \"sigma_tt\" for that around it";
@@ -104,9 +94,9 @@ pub fn read_units(root: &Section) -> UnitNames {
 }
 
 /// `[probe.NAME]`, which asks a body of the case, or a part of one.
-pub fn read_probe(section: &Section, root: &Section) -> Option<Probe> {
+pub fn read_probe(section: &Section, root: &Section) -> Option<ProbePoint> {
     let (point, body) = (section.required(PROBED), section.required(BODY));
     let (point, body) = (point?, body?);
     section.check_name(&["body"], "body", &body, region_names(root).into_iter());
-    Some(Probe { name: section.name().into(), point, body })
+    Some(ProbePoint { name: section.name().into(), point: point.into(), body })
 }

@@ -78,7 +78,7 @@ fn check_turn(tool: &Tool, contacts: &[Pair], root: &Section) {
     if tool.motion.prescribed[2].is_some() {
         return;
     }
-    if matches!(tool.surface[0].curve, Curve::Circle { .. }) {
+    if matches!(*tool.surface[0].curve, Curve::Circle { .. }) {
         let words = "a circle turns on what it touches: nothing but its curvature resists, which is not modelled; leave moment out, or give angle";
         root.problem(&["rigid", name(tool), "moment"], words.into());
     }

@@ -35,11 +35,17 @@ pub struct FormOf<T> {
 }
 
 /// Words, each of which stands for a value.
-pub trait Choice: Copy + 'static {
+pub trait Choice: Copy + PartialEq + 'static {
     /// The words.
     const WORDS: &'static [&'static str];
     /// What each of them stands for.
     const MEANINGS: &'static [Self];
+
+    /// The word for it.
+    fn word(self) -> &'static str {
+        let at = Self::MEANINGS.iter().position(|meaning| *meaning == self);
+        Self::WORDS[at.expect("each meaning has a word")]
+    }
 }
 
 /// Variables of formulas in the plane.

@@ -93,7 +93,7 @@ impl Expansion<'_> {
             return;
         }
         let path: Vec<String> = path.iter().map(|name| (*name).to_owned()).collect();
-        let mut result = merged(&path, &tables, &standing, "part", &mut self.log.problems);
+        let mut result = merged(&path, &tables, &standing, &mut self.log.problems);
         for one in &standing {
             let written = [path.as_slice(), std::slice::from_ref(&one.name)].concat();
             self.set_again(&written, one, &mut result);

@@ -23,8 +23,8 @@ impl StandsFor {
 
 /// Tables without those that stand for several, each of which gives its keys to its own, in its place where they are not there
 /// yet. Of two that give the same key the one with more letters of its own wins, and a table of the name itself over both.
-/// A body with parts, `whole`, takes nothing. Two that are equal and say different things are a problem.
-pub fn merged(path: &[String], tables: &Table, standing: &[StandsFor], whole: &str, problems: &mut Vec<Problem>) -> Table {
+/// A body with parts takes nothing. Two that are equal and say different things are a problem.
+pub fn merged(path: &[String], tables: &Table, standing: &[StandsFor], problems: &mut Vec<Problem>) -> Table {
     let mut above: HashMap<&str, Vec<&StandsFor>> = HashMap::new();
     for one in standing {
         one.names.iter().for_each(|name| above.entry(name).or_default().push(one));
@@ -37,7 +37,7 @@ pub fn merged(path: &[String], tables: &Table, standing: &[StandsFor], whole: &s
         if !gone.contains(name.as_str()) {
             let mut value = value.clone();
             if let Value::Table(own) = &mut value
-                && !own.contains_key(whole)
+                && !own.contains_key("part")
             {
                 let mut all = given(path, name, Some(own), tables, above(name), problems);
                 all.extend(std::mem::take(own));
@@ -96,7 +96,7 @@ mod tests {
         let mut problems = Vec::new();
         let tables: Table = text.parse().expect("TOML");
         let names: Vec<String> = ["body".to_owned()].into();
-        (merged(&names, &tables, all, "part", &mut problems).to_string(), problems.len())
+        (merged(&names, &tables, all, &mut problems).to_string(), problems.len())
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::expansion::{Expansion, table_at};
 use super::mesh_names::MeshNames;
-use crate::mesh::{parse_joined, surfaces};
+use crate::mesh::{parse_gmsh, surfaces};
 use std::collections::HashMap;
 use std::path::Path;
 use toml::{Table, Value};
@@ -20,13 +20,13 @@ impl Expansion<'_> {
             .map(|(name, _)| name.clone())
             .collect();
         if with_parts.is_empty() {
-            return parse_joined(bytes, file, HashMap::new()).map(MeshNames::new).map_err(|error| error.to_string());
+            return parse_gmsh(bytes, file, HashMap::new()).map(MeshNames::new).map_err(|error| error.to_string());
         }
         let surfaces = surfaces(bytes, file).map_err(|error| error.to_string())?;
         for body in &with_parts {
             self.write_out_names(&["body", body, "part"], &surfaces, "physical surface");
         }
-        parse_joined(bytes, file, self.joined(&with_parts)).map(MeshNames::new).map_err(|error| error.to_string())
+        parse_gmsh(bytes, file, self.joined(&with_parts)).map(MeshNames::new).map_err(|error| error.to_string())
     }
 
     /// The body of each physical surface that is a part of one.

@@ -16,11 +16,6 @@ pub use case::CASE;
 pub use json::json;
 pub use study::STUDY;
 
-/// Keys of a file that has not the form of the table, with words; none if the text is no TOML at all.
-pub fn faults(table: &TableForm, text: &str) -> Option<Vec<(String, String)>> {
-    toml::from_str(text).ok().map(|file| table.faults(&file))
-}
-
 #[cfg(test)]
 pub use crate::case::keys::never_asked;
 

@@ -106,8 +106,8 @@ fn words_have_meanings_and_defaults_their_form() {
 #[test]
 fn faults_are_those_of_the_form() {
     let faults = |text: &str| {
-        let found = super::faults(&CASE, text).expect("TOML").into_iter().map(|(key, words)| format!("{key}: {words}"));
-        found.collect::<Vec<_>>()
+        let file = toml::from_str(text).expect("TOML");
+        CASE.faults(&file).into_iter().map(|(key, words)| format!("{key}: {words}")).collect::<Vec<_>>()
     };
     let good = "mesh.file = 'a'\nbody.a = { young = 1, poisson = 0.3 }\n";
     assert_eq!(faults(good), [""; 0]);
@@ -125,5 +125,4 @@ fn faults_are_those_of_the_form() {
         let found = faults(text);
         assert!(found.len() == 1 && found[0].starts_with(expected), "{text}: {found:?}");
     }
-    assert!(super::faults(&CASE, "a = ").is_none());
 }

@@ -1,7 +1,7 @@
 //! Boundaries of different bodies that lie close and face each other: contacts that a case may mean.
 
 use crate::geometry::{Disc, Point, bounds, overlapping_discs, turn_right};
-use crate::mesh::{Boundary, MacroMesh, SurfacePart};
+use crate::mesh::{Boundary, CurvePiece, MacroMesh};
 use std::collections::{HashMap, HashSet};
 
 /// Parts of an edge at whose ends places are looked at, and places on a boundary at most.
@@ -119,7 +119,7 @@ impl CloseSide {
     }
 
     /// The surface of a rigid tool, which may look to either side of its curves.
-    pub fn of_tool<'a>(surface: impl Iterator<Item = &'a SurfacePart>) -> Self {
+    pub fn of_tool<'a>(surface: impl Iterator<Item = &'a CurvePiece>) -> Self {
         let (mut sights, mut length) = (Vec::new(), 0.0);
         for part in surface {
             let [from, to] = part.range;

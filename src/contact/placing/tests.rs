@@ -29,7 +29,7 @@ fn holes_at_any_place_are_refused() {
     assert!(cover(&mesh, Curve::Line([[0.0, 1.0], [2.0, 1.0]])).unwrap_err().contains("\"upper.seam\" has a hole"));
 }
 
-fn at_rest(mesh: &MacroMesh, numbering: &Numbering, rule: SegmentRule, young: [f64; 2]) -> Result<ContactBoundary, PlacingError> {
+fn at_rest(mesh: &MacroMesh, numbering: &Numbering, rule: SegmentRule, young: [f64; 2]) -> Result<ContactBoundary, String> {
     place(mesh, numbering, &pair(rule), young, &Known::default(), &|_| Point::zeros()).map(|placed| placed.boundary)
 }
 
@@ -85,8 +85,8 @@ fn boundaries_that_do_not_face_each_other_are_refused() {
     moved.into_iter().for_each(|vertex| mesh.vertices[vertex as usize].x += 5.0);
     let partition = Rc::new(Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1));
     let numbering = Numbering::new(Level { intervals: 2, order: Order::P1 }, &partition);
-    let words = at_rest(&mesh, &numbering, SegmentRule::Count(3), [1.0, 1.0]).unwrap_err().to_string();
-    assert!(words.starts_with("contact.seam: ") && words.contains("do not face each other"), "{words}");
+    let words = at_rest(&mesh, &numbering, SegmentRule::Count(3), [1.0, 1.0]).unwrap_err();
+    assert!(words.contains("do not face each other"), "{words}");
 }
 
 /// What is known of an earlier place of Γ_C stays: its ends, no farther than both bodies reach, and its number of segments.
@@ -107,7 +107,7 @@ fn known_ends_and_segments_stay_within_the_bodies() {
     for ends in [[1.2, 1.5], [0.5, 0.5 + 1e-300]] {
         let known = Known { ends: Some(ends), ..Known::default() };
         let placed = place(&mesh, &numbering, &pair, [1.0; 2], &known, &|_| Point::zeros());
-        assert!(placed.err().expect("nothing there").words.contains("face each other nowhere over a length"));
+        assert!(placed.err().expect("nothing there").contains("face each other nowhere over a length"));
     }
 }
 

@@ -67,8 +67,8 @@ pub struct Contact {
 impl Contact {
     /// Whether Γ_C ends where a body does, at its first end and at its last.
     pub fn ends_with_a_body(&self) -> [bool; 2] {
-        let knots = self.boundary.knots();
-        [knots[0] <= self.limits[0], knots[knots.len() - 1] >= self.limits[1]]
+        let [first, last] = self.boundary.ends();
+        [first <= self.limits[0], last >= self.limits[1]]
     }
 
     /// `E_c` at an arc length of Γ_C (stress).
@@ -129,7 +129,8 @@ impl Contact {
         let bodies = [0, 1].map(|k: usize| scene.mesh.body_beside(sides[k][0]));
         let materials = SideMaterials::new(scene, &sides);
         let young = materials.ruling();
-        let placed = place(&scene.mesh, numbering, pair, young, known, displacement)?;
+        let placed = place(&scene.mesh, numbering, pair, young, known, displacement)
+            .map_err(|words| format!("contact.{}: {words}", pair.name))?;
         let (boundary, all) = (placed.boundary, placed.edges);
         let own = |edge: &&BoundaryEdge| scene.partition.owner(edge.triangle as u32) == rank;
         let edges = all.each_ref().map(|edges| edges.iter().filter(own).cloned().collect());
@@ -150,9 +151,7 @@ impl Contact {
         };
         let measured = matches!(pair.gap, GapChoice::Geometry);
         let shapes = measured.then(|| sides.each_ref().map(|edges| scene.mesh.smooth_curves(edges)));
-        let knots = boundary.knots();
-        let ends = Some([knots[0], knots[knots.len() - 1]]);
-        let segments = Some(boundary.segments());
+        let (ends, segments) = (Some(boundary.ends()), Some(boundary.segments()));
         Ok(Self {
             pair: pair.clone(),
             known: Known { meeting: placed.meeting, ends, segments, coarser: known.coarser, touch: known.touch },
@@ -214,8 +213,7 @@ impl Contact {
 
     /// Both ends of Γ_C, as well as they are known.
     pub fn ends(&self) -> [Point; 2] {
-        let knots = self.boundary.knots();
-        self.found.unwrap_or_else(|| [knots[0], knots[knots.len() - 1]].map(|t| self.boundary.point(t)))
+        self.found.unwrap_or_else(|| self.boundary.ends().map(|t| self.boundary.point(t)))
     }
 
     /// Numbers of its multipliers.
@@ -276,8 +274,7 @@ impl Places {
 /// Whether a load acts on one of these edges.
 fn is_loaded(scene: &Scene, edges: &[u32]) -> bool {
     let own: HashSet<u32> = edges.iter().copied().collect();
-    let names = scene.loads.iter().flat_map(|load| &load.on);
-    names.filter_map(|name| scene.mesh.boundary(name)).flat_map(|boundary| &boundary.edges).any(|edge| own.contains(edge))
+    scene.loads.iter().flat_map(|load| scene.mesh.edges_on(&load.on)).any(|edge| own.contains(&edge))
 }
 
 /// Share of the safe ratio below which segments are short.

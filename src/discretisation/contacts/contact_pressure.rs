@@ -3,7 +3,7 @@
 use crate::contact::{Zone, faded_end, oscillation, recovered_peak, zone_counts};
 use crate::discretisation::contacts::contact::Contact;
 use crate::discretisation::solution::Solution;
-use crate::geometry::{Formula, Point, gauss_points};
+use crate::geometry::{Formula, Point};
 
 /// λ of one contact, with the set that it was solved for.
 #[derive(Clone, Copy)]
@@ -35,8 +35,8 @@ impl<'a> ContactPressure<'a> {
     /// λ at the foot of a point; at a segment end the mean of both values, so that rounding does not choose one of them.
     pub fn at_foot(&self, x: Point) -> f64 {
         let boundary = &self.contact.boundary;
-        let knots = boundary.knots();
-        let (k, z) = boundary.locate(boundary.foot(x).clamp(knots[0], knots[knots.len() - 1]));
+        let [first, end] = boundary.ends();
+        let (k, z) = boundary.locate(boundary.foot(x).clamp(first, end));
         let near = 1e-9;
         let (here, last) = (self.value(k, z.clamp(0.0, 1.0)), boundary.segments() - 1);
         if z < near && (k > 0 || boundary.is_closed()) {
@@ -75,13 +75,19 @@ impl<'a> ContactPressure<'a> {
         Zone::all(&self.contact.boundary, &self.contact.multipliers, self.values, self.active)
     }
 
-    /// Which of its zones anyone would look at.
-    pub fn counting(&self, zones: &[Zone]) -> Vec<bool> {
-        let forces: Vec<f64> = zones.iter().map(|zone| self.force_of(zone)).collect();
+    /// What there is `of` those of its zones that anyone would look at.
+    pub fn counting<T>(&self, zones: &[Zone], of: impl IntoIterator<Item = T>) -> impl Iterator<Item = T> {
         let peaks: Vec<f64> = zones.iter().map(|zone| self.peak_of(zone)).collect();
-        let whole: f64 = forces.iter().map(|force| force.abs()).sum();
         let highest = peaks.iter().copied().fold(0.0, f64::max);
-        forces.iter().zip(&peaks).map(|(force, peak)| zone_counts(force / whole, *peak, highest)).collect()
+        let figures = self.shares(zones).into_iter().zip(peaks);
+        of.into_iter().zip(figures).filter(move |(_, (share, peak))| zone_counts(*share, *peak, highest)).map(|(of, _)| of)
+    }
+
+    /// Shares that its zones have of all forces.
+    pub fn shares(&self, zones: &[Zone]) -> Vec<f64> {
+        let forces: Vec<f64> = zones.iter().map(|zone| self.force_of(zone)).collect();
+        let whole: f64 = forces.iter().map(|force| force.abs()).sum();
+        forces.into_iter().map(|force| force / whole).collect()
     }
 
     /// `∫λ ds` of one zone.
@@ -133,17 +139,13 @@ impl<'a> ContactPressure<'a> {
             (sums[0] / sums[1]).sqrt()
         };
         let zones = self.zones();
-        let counting = zones.iter().zip(self.counting(&zones)).filter(|(_, counts)| *counts);
-        counting.map(|(zone, _)| error(zone)).reduce(f64::max)
+        self.counting(&zones, &zones).map(error).reduce(f64::max)
     }
 
     /// Relative error of the largest value, against the largest one of a formula of `x, y` on Γ_C.
     pub fn peak_error(&self, exact: &Formula) -> f64 {
         let boundary = &self.contact.boundary;
-        let places = boundary.knots().windows(2).flat_map(|ends| {
-            let inside = gauss_points(8).iter().map(move |(z, _)| ends[0] + z * (ends[1] - ends[0]));
-            [ends[0], ends[1]].into_iter().chain(inside)
-        });
+        let places = boundary.gauss_by_parameter(8).map(|(_, _, t, _)| t).chain(boundary.knots().iter().copied());
         let values = places.map(|t| boundary.point(t)).map(|x| exact.value(&[x.x, x.y]));
         (self.largest() / values.fold(f64::NEG_INFINITY, f64::max) - 1.0).abs()
     }
@@ -152,15 +154,11 @@ impl<'a> ContactPressure<'a> {
     pub fn error(&self, exact: &Formula) -> f64 {
         let boundary = &self.contact.boundary;
         let mut sums = [0.0; 2];
-        for (k, ends) in boundary.knots().windows(2).enumerate() {
-            for (z, weight) in gauss_points(8) {
-                let t = ends[0] + z * (ends[1] - ends[0]);
-                let x = boundary.point(t);
-                let wanted = exact.value(&[x.x, x.y]);
-                let ds = weight * (ends[1] - ends[0]) * boundary.speed(t);
-                sums[0] += ds * (self.value(k, *z) - wanted).powi(2);
-                sums[1] += ds * wanted * wanted;
-            }
+        for (k, z, t, length) in boundary.gauss_by_parameter(8) {
+            let x = boundary.point(t);
+            let wanted = exact.value(&[x.x, x.y]);
+            sums[0] += length * (self.value(k, z) - wanted).powi(2);
+            sums[1] += length * wanted * wanted;
         }
         (sums[0] / sums[1]).sqrt()
     }

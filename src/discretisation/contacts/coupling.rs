@@ -66,7 +66,7 @@ impl Coupling {
     /// [`SystemError::Case`] if a normal of Γ_C misses a declared geometry.
     pub fn new(scene: &Scene, spaces: &[Space], contacts: &[Contact], session: &Session) -> Result<Self, SystemError> {
         let mut own = Share::new(contacts);
-        session.agree(own.integrate(contacts)).map_err(SystemError::Case)?;
+        session.agree(own.integrate(contacts))?;
         let Share { entries, mut gap, points } = own;
         let count = gap.len();
         gap.extend(points);
@@ -123,7 +123,7 @@ impl Share {
             for (k, side) in [Side::First, Side::Second].into_iter().enumerate() {
                 let (rule, edges) = (contact.pair.quadrature, &contact.edges[k]);
                 let own = integrate(&contact.boundary, &contact.multipliers, rule, side, edges, &contact.distance(k))
-                    .map_err(|words| SystemError::Case(format!("contact.{}: {words}", contact.pair.name)))?;
+                    .map_err(|words| format!("contact.{}: {words}", contact.pair.name))?;
                 own.gap.iter().enumerate().for_each(|(i, value)| self.gap[contact.first + i] += value);
                 self.points[number] += own.points as f64;
                 for entry in own.entries {
@@ -219,7 +219,7 @@ fn add_declared_gaps(contacts: &[Contact], gap: &mut [f64]) -> Result<(), System
     for contact in contacts {
         if let GapChoice::Formula(formula) = &contact.pair.gap {
             let declared = declared_gap(&contact.boundary, &contact.multipliers, formula)
-                .map_err(|words| SystemError::Case(format!("contact.{}.gap: {words}", contact.pair.name)))?;
+                .map_err(|words| format!("contact.{}.gap: {words}", contact.pair.name))?;
             declared.iter().enumerate().for_each(|(i, value)| gap[contact.first + i] += value);
         }
         if let Some(i) = gap[contact.range()].iter().position(|value| !value.is_finite()) {

@@ -105,8 +105,7 @@ fn is_joint(scene: &Scene, mut edge: u32, vertex: u32) -> bool {
         let triangle = &mesh.triangles[at];
         let ends_there = |other: &u32| *other != edge && mesh.edges[*other as usize].vertices.contains(&vertex);
         let Some(next) = triangle.edges.into_iter().find(ends_there) else { return false };
-        let across = mesh.edges[next as usize].triangles.into_iter().flatten().find(|&other| other as usize != at);
-        let Some(other) = across else { return false };
+        let Some(other) = mesh.across(at as u32, next) else { return false };
         let [here, there] = [triangle.part, mesh.triangles[other as usize].part];
         if here != there && !scene.part(here as usize).is_alike(scene.part(there as usize)) {
             return true;

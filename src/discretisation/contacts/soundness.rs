@@ -21,15 +21,15 @@ pub fn check_soundness(scene: &Scene, numbering: &Numbering, contacts: &[Contact
     let (mesh, parts) = (&scene.mesh, scene.parts());
     let curved = (0..mesh.triangles.len()).filter(|&triangle| mesh.is_curved(triangle)).count();
     check_folding(mesh, looked_at(scene, curved))?;
-    check_loads(mesh, numbering, &scene.loads).map_err(SystemError::Case)?;
+    check_loads(mesh, numbering, &scene.loads)?;
     let forced =
         (0..mesh.triangles.len()).filter(|&triangle| parts[mesh.triangles[triangle].part as usize].formulas().any(varies));
     let level = looked_at(scene, forced.clone().count());
-    check_body_forces(mesh, forced, level, &parts).map_err(SystemError::Case)?;
+    check_body_forces(mesh, forced, level, &parts)?;
     for contact in contacts {
         if let GapChoice::Formula(formula) = &contact.pair.gap {
             declared_gap(&contact.boundary, &contact.multipliers, formula)
-                .map_err(|words| SystemError::Case(format!("contact.{}.gap: {words}", contact.pair.name)))?;
+                .map_err(|words| format!("contact.{}.gap: {words}", contact.pair.name))?;
         }
     }
     Ok(())

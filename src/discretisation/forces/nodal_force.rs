@@ -36,10 +36,10 @@ fn applied(problem: &Discretisation, session: &Session) -> Result<Field<2>, Syst
     let rank = session.rank();
     let applied = Applied { parts: &scene.parts(), loads: &scene.loads, point_loads: &scene.point_loads };
     let added = applied_forces(&scene.mesh, &scene.partition, rank, numbering, &applied, add);
-    session.agree(added.map_err(SystemError::from)).map_err(SystemError::Case)?;
+    session.agree(added.map_err(SystemError::from))?;
     let bad = forces.own().iter().flatten().any(|force| !force.is_finite());
     if session.any(bad) {
-        session.agree(find_bad_force(scene, numbering, rank)).map_err(SystemError::Case)?;
+        session.agree(find_bad_force(scene, numbering, rank))?;
         return Err(SystemError::Case("load or body_force: nodal forces are too large to be counted; make them smaller".into()));
     }
     Ok(forces.sum(session))

@@ -10,7 +10,6 @@ use crate::mesh::curved::bow::{Bow, FLAT, go_on, is_inflection, on_one_circle};
 use crate::mesh::macro_mesh::MacroMesh;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::{BTreeMap, HashMap, HashSet};
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Highest arc over a side as a share of the chord; a half circle has 0.5.
@@ -82,8 +81,7 @@ impl MacroMesh {
 
     /// Parameters of a side's ends on a circle, which they are moved onto.
     fn onto(&mut self, circle: &Curve, bow: &Bow) -> [f64; 2] {
-        let mut range = bow.ends.map(|vertex| circle.nearest(self.vertices[vertex as usize]));
-        range[1] = range[0] + (range[1] - range[0] + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU;
+        let range = self.range_on(circle, bow.ends);
         for (vertex, t) in bow.ends.into_iter().zip(range) {
             let here = self.vertices[vertex as usize];
             let there = self.kept_on_axis(here, circle.point(t));
@@ -219,6 +217,7 @@ fn circle_through(chain: &[Bow]) -> Option<Curve> {
 mod tests {
     use super::*;
     use crate::mesh::raw_mesh::RawMesh;
+    use std::f64::consts::TAU;
     use std::path::Path;
 
     /// A fan of so many second-order triangles around the origin, whose rim is a curve of the angle.

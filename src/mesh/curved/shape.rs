@@ -3,7 +3,7 @@
 use crate::element::Plane;
 use crate::geometry::{Coordinates, Curve, Point, Rounded};
 use crate::mesh::MeshError;
-use crate::mesh::edge_shape::EdgeShape;
+use crate::mesh::curve_piece::CurvePiece;
 use crate::mesh::macro_mesh::MacroMesh;
 use nalgebra::Matrix2;
 use std::sync::Arc;
@@ -37,10 +37,7 @@ impl MacroMesh {
     fn bend_edge(&mut self, geometry: &str, edge: u32, curve: &Arc<Curve>) -> Result<(), MeshError> {
         let ends = self.edges[edge as usize].vertices;
         let length = self.edge_length(edge);
-        let mut range = ends.map(|vertex| curve.nearest(self.vertices[vertex as usize]));
-        if let Some(period) = curve.period() {
-            range[1] = range[0] + (range[1] - range[0] + 0.5 * period).rem_euclid(period) - 0.5 * period;
-        }
+        let range = self.range_on(curve, ends);
         for (vertex, t) in ends.into_iter().zip(range) {
             let here = self.vertices[vertex as usize];
             let there = self.kept_on_axis(here, curve.point(t));
@@ -63,8 +60,15 @@ impl MacroMesh {
                 self.vertices[vertex as usize] = there;
             }
         }
-        self.edges[edge as usize].shape = (!curve.is_line()).then(|| Box::new(EdgeShape { curve: curve.clone(), range }));
+        self.edges[edge as usize].shape = (!curve.is_line()).then(|| Box::new(CurvePiece { curve: curve.clone(), range }));
         Ok(())
+    }
+
+    /// Parameters of a curve where it is nearest to two vertices; of a closed one no farther apart than half of it.
+    pub(super) fn range_on(&self, curve: &Curve, ends: [u32; 2]) -> [f64; 2] {
+        let [from, to] = ends.map(|vertex| curve.nearest(self.vertices[vertex as usize]));
+        let near = |period: f64| from + (to - from + 0.5 * period).rem_euclid(period) - 0.5 * period;
+        [from, curve.period().map_or(to, near)]
     }
 
     /// Whether an edge of the macro triangle is bent, so that its triangles differ from one another.
@@ -98,7 +102,7 @@ impl MacroMesh {
             }
             let straight = corners[k] * (1.0 - t) + corners[(k + 1) % 3] * t;
             let along = if macro_triangle.forward[k] { t } else { 1.0 - t };
-            x += (shape.curve.point(shape.parameter(along)) - straight) * (a * b / (t * (1.0 - t)));
+            x += (shape.point(along) - straight) * (a * b / (t * (1.0 - t)));
         }
         x
     }
@@ -137,7 +141,7 @@ impl MacroMesh {
         let macro_edge = &self.edges[edge as usize];
         let [a, b] = macro_edge.vertices.map(|vertex| self.vertices[vertex as usize]);
         match &macro_edge.shape {
-            Some(shape) if t > 0.0 && t < 1.0 => shape.curve.point(shape.parameter(t)),
+            Some(shape) if t > 0.0 && t < 1.0 => shape.point(t),
             _ => a * (1.0 - t) + b * t,
         }
     }

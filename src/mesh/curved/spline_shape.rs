@@ -16,7 +16,7 @@
 
 use crate::geometry::{Curve, Point};
 use crate::mesh::chain::Stretch;
-use crate::mesh::edge_shape::EdgeShape;
+use crate::mesh::curve_piece::CurvePiece;
 use crate::mesh::macro_mesh::MacroMesh;
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ const FAINT: f64 = 0.1;
 /// A line that turns by less (radians) is one whose points are rounded.
 const ROUNDED: f64 = 1e-5;
 
-impl EdgeShape {
+impl CurvePiece {
     /// Whether it is a spline through nodes, which nobody has declared.
     pub fn is_spline(&self) -> bool {
         matches!(*self.curve, Curve::Spline(_))

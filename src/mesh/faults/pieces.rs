@@ -133,7 +133,7 @@ fn lie_on_each_other(a: [Point; 2], b: [Point; 2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::file::parse_joined;
+    use crate::mesh::file::parse_gmsh;
     use crate::mesh::raw_mesh::RawMesh;
     use crate::mesh::refined::BisectedMesh;
     use crate::mesh::samples::two_parts;
@@ -161,7 +161,7 @@ mod tests {
             let mut named = mesh.interfaces[0].edges.clone();
             named.sort_unstable();
             assert!(named == between && named.len() == 1 << times, "{named:?} instead of {between:?}");
-            let again = parse_joined(mesh.to_gmsh().as_bytes(), Path::new("again.msh"), joined.clone()).expect("our own");
+            let again = parse_gmsh(mesh.to_gmsh().as_bytes(), Path::new("again.msh"), joined.clone()).expect("our own");
             let content = |mesh: &MacroMesh| format!("{:?}", (&mesh.triangles, &mesh.parts, &mesh.boundaries, &mesh.interfaces));
             assert_eq!(content(&again), content(mesh));
             bisected = bisected.refined(0..mesh.triangles.len() as u32);

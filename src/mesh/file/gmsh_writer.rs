@@ -1,6 +1,6 @@
 //! Writer of Gmsh 4.1 ASCII files.
 
-use crate::geometry::Point;
+use crate::geometry::{Point, bounds};
 use crate::mesh::macro_mesh::{Boundary, MacroMesh, MacroTriangle};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -35,20 +35,15 @@ impl MacroMesh {
     fn entities(&self) -> String {
         let mut text = format!("0 {} {} 0\n", self.curves().count(), self.parts.len());
         for (place, boundary) in self.curves().enumerate() {
-            let ends = boundary.edges.iter().flat_map(|&edge| self.edges[edge as usize].vertices);
-            entity(&mut text, place + 1, self.box_around(ends));
+            let ends = boundary.edges.iter().flat_map(|&edge| self.edge_ends(edge));
+            entity(&mut text, place + 1, bounds(ends));
         }
         for part in 0..self.parts.len() {
             let own = self.triangles.iter().filter(|triangle| triangle.part as usize == part);
-            entity(&mut text, part + 1, self.box_around(own.flat_map(|triangle| triangle.vertices)));
+            let corners = own.flat_map(|triangle| triangle.vertices.map(|vertex| self.vertices[vertex as usize]));
+            entity(&mut text, part + 1, bounds(corners));
         }
         text
-    }
-
-    /// Lower left and upper right corner of the box around some vertices.
-    fn box_around(&self, vertices: impl Iterator<Item = u32>) -> [Point; 2] {
-        let places = vertices.map(|vertex| self.vertices[vertex as usize]);
-        places.map(|x| [x, x]).reduce(|[low, high], [x, _]| [low.inf(&x), high.sup(&x)]).unwrap_or_default()
     }
 
     /// Boundaries, then curves between parts.
@@ -157,15 +152,20 @@ fn line(text: &mut String, words: std::fmt::Arguments) {
 mod tests {
     use super::*;
     use crate::geometry::Curve;
-    use crate::mesh::file::gmsh::{parse_gmsh, read_gmsh};
+    use crate::mesh::file::gmsh::{parse_gmsh, read_bytes};
     use std::path::Path;
 
+    fn mesh_of(file: &str) -> MacroMesh {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+        parse_gmsh(&read_bytes(&file).expect("a file"), &file, Default::default()).expect("a mesh")
+    }
+
     fn case_mesh(file: &str) -> MacroMesh {
-        read_gmsh(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(file)).expect("a mesh")
+        mesh_of(&format!("cases/{file}"))
     }
 
     fn again(mesh: &MacroMesh) -> MacroMesh {
-        parse_gmsh(mesh.to_gmsh().as_bytes(), Path::new("again.msh")).expect("our own reader reads it")
+        parse_gmsh(mesh.to_gmsh().as_bytes(), Path::new("again.msh"), Default::default()).expect("our own reader reads it")
     }
 
     /// Everything but the file and the shapes of edges, to the last digit.
@@ -239,8 +239,7 @@ mod tests {
     /// A circle of midside nodes is the same circle again, also after bisection.
     #[test]
     fn midside_nodes_bend_it_again() {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/meshes/disc_4.1_order2_ascii.msh");
-        let mut mesh = read_gmsh(&file).expect("a mesh");
+        let mut mesh = mesh_of("tests/meshes/disc_4.1_order2_ascii.msh");
         for _ in 0..2 {
             let read = again(&mesh);
             assert_eq!(content(&read), content(&mesh));

@@ -4,5 +4,5 @@ mod gmsh;
 mod gmsh_writer;
 mod regular_file;
 
-pub use gmsh::{parse_gmsh, parse_joined, read_bytes, read_gmsh, surfaces, touching_surfaces};
+pub use gmsh::{parse_gmsh, read_bytes, surfaces, touching_surfaces};
 pub use regular_file::read_regular;

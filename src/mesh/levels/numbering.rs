@@ -160,14 +160,15 @@ impl TriangleNumbers {
 mod tests {
     use super::*;
     use crate::geometry::Point;
-    use crate::mesh::file::read_gmsh;
+    use crate::mesh::file::{parse_gmsh, read_bytes};
     use crate::mesh::levels::edge_trace::EdgeNode;
     use std::collections::{HashMap, HashSet};
     use std::path::Path;
 
     /// Three bodies of 70 triangles, straight.
     fn mesh() -> MacroMesh {
-        read_gmsh(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/stack/stack.msh")).expect("a mesh")
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/stack/stack.msh");
+        parse_gmsh(&read_bytes(&file).expect("a file"), &file, Default::default()).expect("a mesh")
     }
 
     /// Macro triangles dealt to ranks as cards are, some ranks with nothing.

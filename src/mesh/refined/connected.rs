@@ -1,7 +1,7 @@
 //! Meshes made of the triangles of others: edges are found again, with their shapes and their boundaries.
 
 use crate::geometry::Point;
-use crate::mesh::edge_shape::EdgeShape;
+use crate::mesh::curve_piece::CurvePiece;
 use crate::mesh::macro_mesh::{BodyPiece, Boundary, MacroMesh, MacroTriangle};
 
 impl MacroMesh {
@@ -37,7 +37,7 @@ impl MacroMesh {
         let mut mesh = self;
         let (edges, _) = mesh.connect();
         let find = |mesh: &MacroMesh, ends| edges.between(&mesh.triangles, ends).expect("parts of edges are edges");
-        let mut bend = |ends: [u32; 2], shape: EdgeShape| {
+        let mut bend = |ends: [u32; 2], shape: CurvePiece| {
             let edge = find(&mesh, ends);
             mesh.edges[edge as usize].bend(ends, shape.curve, shape.range);
         };
@@ -49,8 +49,8 @@ impl MacroMesh {
                 Some((middle, t)) => {
                     let [from, to] = shape.range;
                     let at = shape.parameter(t);
-                    bend([a, middle], EdgeShape { range: [from, at], ..(**shape).clone() });
-                    bend([middle, b], EdgeShape { range: [at, to], ..(**shape).clone() });
+                    bend([a, middle], CurvePiece { range: [from, at], ..(**shape).clone() });
+                    bend([middle, b], CurvePiece { range: [at, to], ..(**shape).clone() });
                 }
             }
         }

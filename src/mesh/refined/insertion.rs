@@ -125,7 +125,7 @@ impl MacroMesh {
     }
 
     /// The triangle on the other side of an edge.
-    fn across(&self, triangle: u32, edge: u32) -> Option<u32> {
+    pub fn across(&self, triangle: u32, edge: u32) -> Option<u32> {
         self.edges[edge as usize].triangles.into_iter().flatten().find(|&other| other != triangle)
     }
 

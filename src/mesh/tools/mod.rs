@@ -2,5 +2,3 @@
 
 mod tool;
 mod without_tools;
-
-pub use tool::SurfacePart;

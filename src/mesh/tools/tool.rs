@@ -5,9 +5,9 @@
 
 use crate::element::Plane;
 use crate::geometry::{Curve, Point, cross, turn_right};
+use crate::mesh::curve_piece::CurvePiece;
 use crate::mesh::macro_mesh::{BodyPiece, Boundary, MacroMesh, MacroTriangle, Surface};
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 /// Points of a curve at which sizes are asked for.
 const SAMPLES: usize = 4000;
@@ -34,24 +34,8 @@ const OPENING: f64 = 1e-2;
 /// Cosine of the angle between the normals of a tool and of a body from which they face each other.
 const FACES: f64 = 0.1;
 
-/// A part of a tool's surface: a curve over a range of its parameter. Parts follow each other.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SurfacePart {
-    /// The curve.
-    pub curve: Curve,
-    /// First and last parameter.
-    pub range: [f64; 2],
-}
-
-impl SurfacePart {
-    fn point(&self, share: f64) -> Point {
-        self.curve.point(self.parameter(share))
-    }
-
-    fn parameter(&self, share: f64) -> f64 {
-        self.range[0] + share * (self.range[1] - self.range[0])
-    }
-
+/// Of a part of a tool's surface; parts follow each other.
+impl CurvePiece {
     /// Unit normal to the right of the direction of travel.
     fn right(&self, share: f64) -> Point {
         turn_right(self.curve.tangent(self.parameter(share)))
@@ -84,7 +68,7 @@ impl MacroMesh {
     ///
     /// # Errors
     /// Words that say what is wrong with the surface.
-    pub fn add_tool(&mut self, name: &str, parts: &[SurfacePart], against: &[u32]) -> Result<(), String> {
+    pub fn add_tool(&mut self, name: &str, parts: &[CurvePiece], against: &[u32]) -> Result<(), String> {
         let parts = &self.opened(parts, against);
         let solid_right = self.is_solid_right(parts, against)?;
         let sizes = Sizes::new(self, against);
@@ -112,30 +96,24 @@ impl MacroMesh {
 
     /// A circle that is faced on a part of it only is cut open where it is not: an arc has ends, as most boundaries have. Of one about
     /// a point of the axis of revolution its half at the right of that is left.
-    fn opened(&self, parts: &[SurfacePart], against: &[u32]) -> Vec<SurfacePart> {
-        let mut parts = parts.to_vec();
-        if let [SurfacePart { curve: Curve::Circle { centre, .. }, range }] = &mut parts[..]
-            && self.plane == Plane::Revolution
-            && centre[0] == 0.0
-        {
-            *range = [-0.25 * TAU, 0.25 * TAU];
-            return parts;
+    fn opened(&self, parts: &[CurvePiece], against: &[u32]) -> Vec<CurvePiece> {
+        let [CurvePiece { curve, range }] = parts else { return parts.to_vec() };
+        let Curve::Circle { centre, .. } = **curve else { return parts.to_vec() };
+        let open = |range: [f64; 2]| vec![CurvePiece { curve: curve.clone(), range }];
+        if self.plane == Plane::Revolution && centre[0] == 0.0 {
+            return open([-0.25 * TAU, 0.25 * TAU]);
         }
-        if let [SurfacePart { curve: curve @ Curve::Circle { .. }, range }] = &mut parts[..] {
-            let mut angles: Vec<f64> = against.iter().map(|&edge| curve.nearest(self.edge_position(edge, 0.5))).collect();
-            angles.sort_by(f64::total_cmp);
-            let next = |k: usize| angles.get(k + 1).copied().unwrap_or(angles[0] + TAU);
-            let widest = (0..angles.len()).map(|k| [angles[k], next(k)]).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
-            if let Some(middle) = widest.filter(|[from, to]| to - from >= LEAST_OPENING).map(|[from, to]| 0.5 * (from + to)) {
-                *range = [middle + 0.5 * OPENING, middle + TAU - 0.5 * OPENING];
-            }
-        }
-        parts
+        let mut angles: Vec<f64> = against.iter().map(|&edge| curve.nearest(self.edge_position(edge, 0.5))).collect();
+        angles.sort_by(f64::total_cmp);
+        let next = |k: usize| angles.get(k + 1).copied().unwrap_or(angles[0] + TAU);
+        let widest = (0..angles.len()).map(|k| [angles[k], next(k)]).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+        let middle = widest.filter(|[from, to]| to - from >= LEAST_OPENING).map(|[from, to]| 0.5 * (from + to));
+        open(middle.map_or(*range, |middle| [middle + 0.5 * OPENING, middle + TAU - 0.5 * OPENING]))
     }
 
     /// Whether the tool lies to the right of its surface: where it faces the nearest edge, its outward normal is against that of
     /// the body.
-    fn is_solid_right(&self, parts: &[SurfacePart], against: &[u32]) -> Result<bool, String> {
+    fn is_solid_right(&self, parts: &[CurvePiece], against: &[u32]) -> Result<bool, String> {
         let mut nearest = (f64::INFINITY, 0.0);
         for part in parts {
             for share in (0..=SAMPLES / 10).map(|k| k as f64 * 10.0 / SAMPLES as f64) {
@@ -157,7 +135,7 @@ impl MacroMesh {
     }
 
     /// A point of a surface, on the axis of revolution if it misses that by rounding.
-    fn rounded_to_axis(&self, x: Point, part: &SurfacePart) -> Point {
+    fn rounded_to_axis(&self, x: Point, part: &CurvePiece) -> Point {
         let size = (part.point(0.5) - part.point(0.0)).norm();
         let is_on_axis = self.plane == Plane::Revolution && x.x.abs() <= 1e-12 * size;
         if is_on_axis { Point::new(0.0, x.y) } else { x }
@@ -175,7 +153,7 @@ impl MacroMesh {
     fn add_layer(
         &mut self,
         name: &str,
-        parts: &[SurfacePart],
+        parts: &[CurvePiece],
         places: &[SurfacePoint],
         sides: &[SurfaceEdge],
         behind: f64,
@@ -210,11 +188,11 @@ impl MacroMesh {
         let (edges, _) = self.connect();
         self.edges.iter_mut().zip(shapes).for_each(|(edge, shape)| edge.shape = shape);
         let mut surface = Vec::new();
-        let arcs: Vec<Arc<Curve>> = parts.iter().map(|part| Arc::new(part.curve.clone())).collect();
         for (k, side) in sides.iter().enumerate() {
             let edge = edges.between(&self.triangles, ends(k)).expect("a side of the first triangle there");
-            if !arcs[side.part].is_line() {
-                self.edges[edge as usize].bend(ends(k), arcs[side.part].clone(), side.range);
+            let curve = &parts[side.part].curve;
+            if !curve.is_line() {
+                self.edges[edge as usize].bend(ends(k), curve.clone(), side.range);
             }
             surface.push((side.part, edge));
         }
@@ -241,7 +219,7 @@ impl MacroMesh {
 }
 
 /// Mean length of the edges beside a vertex of a part.
-fn step(part: &SurfacePart, shares: &[f64], k: usize) -> f64 {
+fn step(part: &CurvePiece, shares: &[f64], k: usize) -> f64 {
     let length = |a: f64, b: f64| (part.point(b) - part.point(a)).norm();
     let before = k.checked_sub(1).map(|before| length(shares[before], shares[k]));
     let after = shares.get(k + 1).map(|&after| length(shares[k], after));
@@ -272,7 +250,7 @@ impl Sizes {
     }
 
     /// Shares of a part's parameter that cut it into edges.
-    fn cut(&self, part: &SurfacePart, is_closed: bool) -> Result<Vec<f64>, String> {
+    fn cut(&self, part: &CurvePiece, is_closed: bool) -> Result<Vec<f64>, String> {
         let share = |k: usize| k as f64 / SAMPLES as f64;
         let mut counts = vec![0.0];
         for k in 0..SAMPLES {
@@ -306,19 +284,19 @@ mod tests {
     use super::*;
     use crate::mesh::samples::two_blocks;
 
-    fn with_tool(parts: &[SurfacePart], faced: &str) -> MacroMesh {
+    fn with_tool(parts: &[CurvePiece], faced: &str) -> MacroMesh {
         let mut mesh = two_blocks();
         let against = mesh.boundary(faced).expect("named").edges.clone();
         mesh.add_tool("rigid.tool", parts, &against).expect("a good surface");
         mesh
     }
 
-    fn line(from: [f64; 2], to: [f64; 2]) -> SurfacePart {
-        SurfacePart { curve: Curve::Line([from, to]), range: [0.0, 1.0] }
+    fn line(from: [f64; 2], to: [f64; 2]) -> CurvePiece {
+        CurvePiece { curve: Curve::Line([from, to]).into(), range: [0.0, 1.0] }
     }
 
-    fn circle(centre: [f64; 2], radius: f64) -> SurfacePart {
-        SurfacePart { curve: Curve::Circle { centre, radius }, range: [0.0, TAU] }
+    fn circle(centre: [f64; 2], radius: f64) -> CurvePiece {
+        CurvePiece { curve: Curve::Circle { centre, radius }.into(), range: [0.0, TAU] }
     }
 
     #[test]

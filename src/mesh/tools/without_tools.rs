@@ -1,28 +1,8 @@
 //! The mesh of the bodies alone, as a file may hold it.
 
+use crate::mesh::kept::Kept;
 use crate::mesh::macro_mesh::{Boundary, MacroEdge, MacroMesh, MacroTriangle};
 use crate::mesh::spot::NamedPoint;
-
-/// New numbers of what is kept of a list, in its order.
-struct Kept(Vec<Option<u32>>);
-
-impl Kept {
-    fn new(all: usize, used: impl Iterator<Item = u32>) -> Self {
-        let mut kept = vec![None; all];
-        used.for_each(|at| kept[at as usize] = Some(0));
-        kept.iter_mut().flatten().zip(0..).for_each(|(number, new)| *number = new);
-        Self(kept)
-    }
-
-    fn at(&self, old: u32) -> Option<u32> {
-        self.0[old as usize]
-    }
-
-    /// Entries that are kept.
-    fn of<T: Clone>(&self, all: &[T]) -> Vec<T> {
-        all.iter().zip(&self.0).filter(|(_, new)| new.is_some()).map(|(entry, _)| entry.clone()).collect()
-    }
-}
 
 impl MacroMesh {
     /// The mesh without the layers of rigid tools, which come after all bodies of the file: a case adds its own.
@@ -31,11 +11,8 @@ impl MacroMesh {
         let own = || self.triangles.iter().filter(of_body);
         let vertices = Kept::new(self.vertices.len(), own().flat_map(|triangle| triangle.vertices));
         let edges = Kept::new(self.edges.len(), own().flat_map(|triangle| triangle.edges));
-        let is_own = |triangle: &MacroTriangle| of_body(&triangle);
-        let triangles = Kept::new(
-            self.triangles.len(),
-            self.triangles.iter().zip(0..).filter(|(triangle, _)| is_own(triangle)).map(|(_, at)| at),
-        );
+        let numbers = self.triangles.iter().zip(0..).filter(|(triangle, _)| of_body(triangle)).map(|(_, at)| at);
+        let triangles = Kept::new(self.triangles.len(), numbers);
         let curve = |boundary: &Boundary| {
             let own = boundary.edges.iter().filter_map(|&edge| edges.at(edge)).collect();
             Boundary { edges: own, ..boundary.clone() }
@@ -76,15 +53,15 @@ impl MacroMesh {
 #[cfg(test)]
 mod tests {
     use crate::geometry::Curve;
+    use crate::mesh::curve_piece::CurvePiece;
     use crate::mesh::samples::two_blocks;
-    use crate::mesh::tools::tool::SurfacePart;
 
     #[test]
     fn what_is_left_without_a_tool_is_the_mesh_before_it() {
         let before = two_blocks();
         let mut mesh = before.clone();
         let against = mesh.boundary("top").expect("named").edges.clone();
-        let line = SurfacePart { curve: Curve::Line([[0.2, 2.1], [1.8, 2.1]]), range: [0.0, 1.0] };
+        let line = CurvePiece { curve: Curve::Line([[0.2, 2.1], [1.8, 2.1]]).into(), range: [0.0, 1.0] };
         mesh.add_tool("rigid.die", &[line], &against).expect("a good surface");
         assert!(mesh.to_gmsh().contains("rigid.die"));
         assert_eq!(mesh.without_tools(|name| name == "rigid.die").to_gmsh(), before.to_gmsh());

@@ -67,7 +67,5 @@ fn add(y: &mut [[f64; 2]], factor: f64, x: &[[f64; 2]]) {
 
 /// `x · y`. **Collective**
 fn product(session: &Session, x: &[[f64; 2]], y: &[[f64; 2]]) -> f64 {
-    let mut sum = [x.as_flattened().iter().zip(y.as_flattened()).map(|(x, y)| x * y).sum()];
-    session.sum(&mut sum);
-    sum[0]
+    session.sum([x.as_flattened().iter().zip(y.as_flattened()).map(|(x, y)| x * y).sum()])[0]
 }

@@ -19,8 +19,6 @@ use std::rc::Rc;
 pub struct Interpolation {
     /// By nodes of this rank.
     pub nodes: Rc<NodeInterpolation>,
-    /// Nodes of the coarser level on all ranks.
-    pub coarse_nodes: usize,
     /// Of a step to an auxiliary level: where it leads.
     pub coarsening: Option<Rc<Coarsening>>,
 }
@@ -33,11 +31,11 @@ pub fn interpolations(problem: &Discretisation, session: &Session) -> Vec<Interp
     for (l, step) in coarsenings.iter().enumerate() {
         let fine = coarsenings.get(l + 1).map_or(first.own.clone(), |finer| finer.coarse.own(session.rank()));
         let nodes = Rc::new(auxiliary_interpolation(step, fine, session));
-        all.push(Interpolation { nodes, coarse_nodes: step.coarse.all.len(), coarsening: Some(step.clone()) });
+        all.push(Interpolation { nodes, coarsening: Some(step.clone()) });
     }
     for pair in problem.spaces.windows(2) {
         let nodes = Rc::new(NodeInterpolation::new(&problem.scene, &pair[1], &pair[0], session));
-        all.push(Interpolation { nodes, coarse_nodes: pair[0].numbering.node_count(), coarsening: None });
+        all.push(Interpolation { nodes, coarsening: None });
     }
     all
 }

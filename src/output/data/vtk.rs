@@ -4,18 +4,22 @@
 //! Coordinates are those of the undeformed bodies; *Warp By Vector* shows them deformed. Vectors have a third component, zero.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, IntoInnerError, Write};
 use std::path::Path;
 
-use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use base64::write::EncoderWriter;
 
 use super::SIGNS;
 use crate::element::Order;
 use crate::output::error::OutputError;
+use crate::output::markup::escape;
 use crate::recovery::TracePoint;
 
 const STRESS_COMPONENTS: [&str; 4] = ["XX", "YY", "XY", "ZZ"];
+/// Bytes that are encoded together.
+const CHUNK: usize = 3 << 13;
+
 const VTK_LINE: u8 = 3;
 const VTK_TRIANGLE: u8 = 5;
 const VTK_QUADRATIC_TRIANGLE: u8 = 22;
@@ -215,7 +219,7 @@ fn declaration(tag: &str, kind: &str, name: &str, components: usize, labels: &[&
     text
 }
 
-/// Writes `count` numbers of so many bytes, low byte first, as base64, preceded by the size of all, in chunks that stay in the cache.
+/// Writes `count` numbers of so many bytes, low byte first, as base64, preceded by the size of all.
 fn write_array<const N: usize>(
     out: &mut impl Write,
     name: &str,
@@ -224,40 +228,24 @@ fn write_array<const N: usize>(
     count: usize,
     values: impl Iterator<Item = [u8; N]>,
 ) -> io::Result<()> {
-    const CHUNK: usize = 3 << 13; // bytes; a multiple of 3 becomes base64 without padding
-    let mut bytes = Vec::with_capacity(CHUNK + 8);
-    let mut text = vec![0; (CHUNK + 8) / 3 * 4 + 4];
-    let mut encode = |bytes: &[u8], out: &mut dyn Write| {
-        let length = STANDARD.encode_slice(bytes, &mut text).map_err(io::Error::other)?;
-        out.write_all(&text[..length])
-    };
-
     let kind = match N {
         8 => "Float64",
         4 => "Int32",
         _ => "UInt8",
     };
     writeln!(out, "{} format=\"binary\">", declaration("DataArray", kind, name, components, labels))?;
-    bytes.extend_from_slice(&((count * N) as u64).to_le_bytes());
-    for value in values {
-        bytes.extend_from_slice(&value);
-        if bytes.len() >= CHUNK {
-            encode(&bytes[..CHUNK], out)?;
-            bytes.drain(..CHUNK);
-        }
-    }
-    encode(&bytes, out)?;
+    // Numbers are encoded together: one by one they would take a multiple of the time.
+    let mut bytes = BufWriter::with_capacity(CHUNK, EncoderWriter::new(&mut *out, &STANDARD));
+    bytes.write_all(&((count * N) as u64).to_le_bytes())?;
+    values.into_iter().try_for_each(|value| bytes.write_all(&value))?;
+    bytes.into_inner().map_err(IntoInnerError::into_error)?.finish()?;
     writeln!(out, "\n</DataArray>")
-}
-
-/// Text as an XML attribute.
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use base64::Engine;
 
     /// The bytes of the numbers of an array, without the count before them, which is checked.
     fn decoded(text: &str, name: &str) -> Vec<u8> {

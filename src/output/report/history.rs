@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::drawings::drawing;
 use super::numbers::{count, number, trust_word};
-use super::page::{ReportPage, TableColumn, long_table, rows_of};
+use super::page::{ReportPage, TableColumn, long_table, table_of};
 use super::verdict::word;
 use crate::output::markup::{UNKNOWN, subsection};
 use crate::output::summary::{AccuracyStep, StepSummary};
@@ -80,8 +80,7 @@ fn meshes_table(meshes: &[AccuracyStep]) -> String {
         ("energy norm", &|(_, mesh)| number(mesh.energy.as_ref().and_then(|goal| goal.estimate))),
         ("seconds so far", &|(_, mesh)| format!("{:.2}", mesh.seconds)),
     ];
-    let (header, rows) = rows_of(&columns, meshes.iter().enumerate());
-    long_table(&header, rows, "summary.json")
+    table_of(&columns, meshes.iter().enumerate(), Some("summary.json"))
 }
 
 fn boundaries(all: &[BoundaryStep]) -> String {
@@ -92,8 +91,7 @@ fn boundaries(all: &[BoundaryStep]) -> String {
         ("change of the displacement", &|one| number(one.du)),
         ("pressures that changed state", &|one| one.flipped.map_or(UNKNOWN.into(), |count| count.to_string())),
     ];
-    let (header, rows) = rows_of(&columns, all.iter());
-    long_table(&header, rows, "summary.json")
+    table_of(&columns, all.iter(), Some("summary.json"))
 }
 
 fn passes(all: &[Pass]) -> String {
@@ -107,6 +105,5 @@ fn passes(all: &[Pass]) -> String {
         ("largest penetration", &|pass| number(Some(pass.max_penetration))),
         ("change of the displacement", &|pass| number(Some(pass.du))),
     ];
-    let (header, rows) = rows_of(&columns, all.iter());
-    long_table(&header, rows, "summary.json")
+    table_of(&columns, all.iter(), Some("summary.json"))
 }

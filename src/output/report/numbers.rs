@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::page::{ReportPage, TableColumn, long_table, rows_of};
+use super::page::{ReportPage, TableColumn, long_table, table_of};
 use crate::output::data::CONTACTS;
 use crate::output::markup::{NOT_TRUSTED, TRUSTED, UNKNOWN, UNTOLD, paragraph, subsection, table};
 use crate::output::plot::{number_text, number_to};
@@ -68,11 +68,10 @@ pub fn contacts(page: &ReportPage) -> String {
         ("pressure", &|(.., contact)| trust_word(contact.judged.trust)),
     ];
     let told = page.told().filter_map(|(name, bodies)| Some((name, bodies, summary.contact.get(name)?)));
-    let (header, rows) = rows_of(&columns, told);
     let all = summary.contacts_in_words().map(|words| {
         paragraph(&format!("{words}.")) + &paragraph(&format!("These are the worst and the largest; all stand in {CONTACTS}."))
     });
-    all.unwrap_or_default() + &table(&header, &rows) + &closed(summary)
+    all.unwrap_or_default() + &table_of(&columns, told, None) + &closed(summary)
 }
 
 /// The intervals that press, as lengths and as places.

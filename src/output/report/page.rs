@@ -54,10 +54,12 @@ pub fn long_table(header: &[&str], rows: Vec<Vec<String>>, place: &str) -> Strin
 /// A column of a table: its head, and its cell in the row of a thing.
 pub type TableColumn<'a, T> = (&'a str, &'a dyn Fn(&T) -> String);
 
-/// The heads of a table, and a row for each thing.
-pub fn rows_of<'a, T>(columns: &[TableColumn<'a, T>], things: impl Iterator<Item = T>) -> (Vec<&'a str>, Vec<Vec<String>>) {
+/// The table of these columns with a row for each thing; of many the first and the last rows, where all of them stand in a `place`.
+pub fn table_of<T>(columns: &[TableColumn<T>], things: impl Iterator<Item = T>, place: Option<&str>) -> String {
     let row = |thing: T| columns.iter().map(|(_, cell)| cell(&thing)).collect();
-    (columns.iter().map(|(head, _)| *head).collect(), things.map(row).collect())
+    let header: Vec<&str> = columns.iter().map(|(head, _)| *head).collect();
+    let rows: Vec<Vec<String>> = things.map(row).collect();
+    if let Some(place) = place { long_table(&header, rows, place) } else { table(&header, &rows) }
 }
 
 /// A value that a case expects.

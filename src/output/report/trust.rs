@@ -1,8 +1,8 @@
 //! What can be trusted of a result, and how large its errors are thought to be.
 
 use super::numbers::{number, trust_word};
-use super::page::{ReportPage, TableColumn, rows_of};
-use crate::output::markup::{UNKNOWN, list, paragraph, subsection, table};
+use super::page::{ReportPage, TableColumn, table_of};
+use crate::output::markup::{UNKNOWN, list, paragraph, subsection};
 use crate::output::plot::number_text;
 use crate::output::summary::{ContactEstimate, ContactSummary, Status, ZoneSummary};
 
@@ -24,8 +24,7 @@ pub fn trust(page: &ReportPage) -> String {
         ("oscillation", &|(_, contact, _)| number(contact.oscillation)),
         ("edges in contact", &|(_, contact, _)| number(contact.closed_edges)),
     ];
-    let (header, rows) = rows_of(&columns, told);
-    text += &table(&header, &rows);
+    text += &table_of(&columns, told, None);
     if !page.warnings.is_empty() {
         text += &subsection("Warnings");
         text += &list(page.warnings);
@@ -55,8 +54,7 @@ pub fn estimate(page: &ReportPage) -> String {
         ("edges", &|(_, zone)| number(zone.edges)),
         ("segments", &|(_, zone)| zone.segments.map_or(UNKNOWN.into(), |segments| segments.to_string())),
     ];
-    let (header, rows) = rows_of(&columns, counting);
-    let zones = table(&header, &rows);
+    let zones = table_of(&columns, counting, None);
     if zones.is_empty() && energy.is_none() {
         return String::new();
     }

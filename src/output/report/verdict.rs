@@ -1,7 +1,7 @@
 //! What everybody wants to know first.
 
 use super::numbers::number;
-use super::page::{ExpectedValue, ReportPage, TableColumn, rows_of};
+use super::page::{ExpectedValue, ReportPage, TableColumn, table_of};
 use crate::output::markup::{HOLDS, MISSED, UNKNOWN, escape, folded, paragraph, subsection, table};
 use crate::output::plot::number_text;
 use crate::output::summary::{GoalSummary, MOST_TOLD, Status, Summary, WORST, capital, clauses, listed};
@@ -104,10 +104,7 @@ fn expected<'a>(values: &'a [ExpectedValue]) -> String {
         ("allowed", &|value| number(value.tolerance)),
         ("", &|value| holds(value).into()),
     ];
-    let shown = |values: &[&'a ExpectedValue]| {
-        let (header, rows) = rows_of(&columns, values.iter().copied());
-        table(&header, &rows)
-    };
+    let shown = |values: &[&'a ExpectedValue]| table_of(&columns, values.iter().copied(), None);
     let (all, title) = (values.iter().collect::<Vec<_>>(), subsection("Expected values"));
     if all.len() <= MOST_TOLD {
         return title + &shown(&all);

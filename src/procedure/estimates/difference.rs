@@ -72,14 +72,13 @@ impl Difference {
         let of_triangles = without_points(problem, local_strain_energy(problem, &apart, session)?, session);
         let left_out = problem.scene.has_point_load(session.rank());
         let cells = cells.into_iter().zip(&left_out).map(|(cells, &is_out)| if is_out { Cells::default() } else { cells });
-        let mut apart = [of_triangles.iter().sum::<f64>()];
-        session.sum(&mut apart);
+        let [apart] = session.sum([of_triangles.iter().sum()]);
         let contacts = problem.contacts.iter().enumerate();
         let contacts = contacts.map(|(at, contact)| ContactDifference::new(&solution.pressure(contact), &coarse.pressure(at)));
         let contacts = contacts.collect();
         let of_triangles = of_triangles.into_iter().map(|part| share(part, whole)).collect();
         let cells = cells.map(|part| part.scaled(if whole == 0.0 { 0.0 } else { 1.0 / whole })).collect();
-        let energy = if whole.is_nan() { f64::NAN } else { share(apart[0], whole) };
+        let energy = if whole.is_nan() { f64::NAN } else { share(apart, whole) };
         Ok(Self { energy, of_triangles, cells, contacts, probes })
     }
 }

@@ -22,8 +22,7 @@ pub(crate) fn way_of_ends(now: &ContactPressure, before: &ContactPressure) -> f6
         let boundary = &pressure.contact.boundary;
         let end = |arc: f64| boundary.point(boundary.parameter_at(arc));
         let zones = pressure.zones();
-        let counting = zones.iter().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts);
-        counting.map(|(zone, _)| (!zone.goes_round()).then(|| zone.arcs.map(end))).collect()
+        pressure.counting(&zones, &zones).map(|zone| (!zone.goes_round()).then(|| zone.arcs.map(end))).collect()
     };
     let (now, before) = (ends(now), ends(before));
     if now.is_empty() {
@@ -67,8 +66,8 @@ pub(crate) fn ends_within_segments(pressure: &ContactPressure, before: &ContactP
             _ => (WITHIN_A_SEGMENT[0] * length, false),
         }
     };
-    let pressing = zones.iter().enumerate().zip(pressure.counting(&zones)).filter(|(_, counts)| *counts);
-    let all = pressing.flat_map(|((z, zone), _)| [0, 1].map(|end| (off(z, zone, end), zone.length())));
+    let pressing = pressure.counting(&zones, zones.iter().enumerate());
+    let all = pressing.flat_map(|(z, zone)| [0, 1].map(|end| (off(z, zone, end), zone.length())));
     // Other zones than on the mesh before say nothing of where these end.
     all.fold((0.0, zones.len() == zones_before.len()), |(most, is_all), ((off, tells), width)| {
         (most.max(off / width), is_all && tells)

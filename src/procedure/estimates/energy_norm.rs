@@ -50,14 +50,13 @@ pub(crate) fn without_points(problem: &Discretisation, parts: Vec<f64>, session:
 /// to nothing, a small share of what it would store if bodies could not grow. **Collective**
 pub(crate) fn whole_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<f64, SystemError> {
     let parts = local_strain_energy(problem, u, session)?;
-    let mut sums = [parts.iter().sum::<f64>(), 0.0];
-    sums[1] = without_points(problem, parts, session).iter().sum();
-    session.sum(&mut sums);
+    let all = parts.iter().sum();
+    let [all, left] = session.sum([all, without_points(problem, parts, session).iter().sum()]);
     let heat = heat_energies(problem, u, session)?;
     let [work, kept] = heat.iter().fold([0.0; 2], |[work, kept], heat| [work + heat.work, kept + heat.kept]);
-    let elastic = sums[1] - work + kept;
+    let elastic = left - work + kept;
     let whole = elastic.max(LEAST_KEPT * kept);
-    Ok(if sums[1] > LEAST_LEFT * sums[0] || sums[0] == 0.0 { whole } else { f64::NAN })
+    Ok(if left > LEAST_LEFT * all || all == 0.0 { whole } else { f64::NAN })
 }
 
 /// Square of the difference of a solution from another displacement in the relative energy norm, on each macro triangle of this rank, in

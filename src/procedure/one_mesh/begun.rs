@@ -58,11 +58,11 @@ impl Procedure<'_> {
         let free = |scene: Scene, words: String| Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
         let unknown = |scene: Scene| Ok(Begun::Ready(Box::new(Discretisation::new(scene, self.session)?), None));
         let not_held = not_held_if_closed(&whole, &numbering, &drawn_contacts(&wide));
-        if let Some(words) = self.session.agree(not_held).map_err(SystemError::Case)? {
+        if let Some(words) = self.session.agree(not_held)? {
             return free(scene, words);
         }
         let predictor = if self.session.rank() == 0 { Predictor::new(&whole, &numbering).map(Some) } else { Ok(None) };
-        let predictor = self.session.agree(predictor).map_err(SystemError::Case)?;
+        let predictor = self.session.agree(predictor)?;
         let predict = |contacts: &[Contact]| self.shared(predictor.as_ref(), contacts, numbering.node_count());
         let (wide, found) = match asked(&whole, &numbering, wide, self.accuracy, predict)? {
             (wide, Prediction::Held(found)) => (wide, found),
@@ -130,7 +130,7 @@ impl Procedure<'_> {
             return Ok(None);
         }
         let predictor = if self.session.rank() == 0 { Predictor::new(&whole, &numbering).map(Some) } else { Ok(None) };
-        let predictor = self.session.agree(predictor).map_err(SystemError::Case)?;
+        let predictor = self.session.agree(predictor)?;
         let Prediction::Held(found) = self.shared(predictor.as_ref(), &drawn, numbering.node_count())? else { return Ok(None) };
         Ok(Some(wide.iter().enumerate().map(|(at, wide)| wide.loaded(at, &found.pressures)).collect()))
     }
@@ -138,7 +138,7 @@ impl Procedure<'_> {
     /// What the programme of rank 0 says, on every rank. **Collective**
     fn shared(&self, predictor: Option<&Predictor>, contacts: &[Contact], nodes: usize) -> Result<Prediction, SystemError> {
         let own = predictor.map(|predictor| predictor.predict(contacts)).transpose();
-        let own = self.session.agree(own).map_err(SystemError::Case)?;
+        let own = self.session.agree(own)?;
         let is_held = self.session.any(matches!(own, Some(Prediction::Held { .. })));
         if !is_held {
             let is_driven = self.session.any(matches!(own, Some(Prediction::Driven { .. })));
@@ -147,7 +147,7 @@ impl Procedure<'_> {
                 Some(Prediction::Driven { words, .. } | Prediction::Unknown(words)) => Ok::<_, String>(words.into_bytes()),
                 _ => Ok(Vec::new()),
             };
-            let words = self.session.share(words).map_err(SystemError::Case)?;
+            let words = self.session.share(words)?;
             let words = String::from_utf8_lossy(&words).into_owned();
             return Ok(if is_driven { Prediction::Driven { words, turns } } else { Prediction::Unknown(words) });
         }

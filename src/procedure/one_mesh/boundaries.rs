@@ -10,6 +10,7 @@
 
 use crate::discretisation::{BoundaryMotion, Contact, Discretisation, Form, Solution, SystemError, load, nodal_forces, settle};
 use crate::multigrid::{Elastic, Interpolation, interpolations};
+use crate::petsc::options;
 use crate::procedure::boundary::{BoundaryStep, Following, NextBoundary, carried, standing, start_from};
 use crate::procedure::ending::{Ending, Failure, Standing};
 use crate::procedure::observer::{Event, Work};
@@ -192,7 +193,7 @@ impl OneMesh<'_> {
         let _stage = observer.enter(Work::SetUp);
         let system = System::new(problem, blocks, &bodies.interpolations, *choice, preconditioning, session)?;
         // Coarser meshes may have no use for what the mesh of the case asks for.
-        let unused = if self.is_last { system.unused_options()? } else { Vec::new() };
+        let unused = if self.is_last { options::unused(session)? } else { Vec::new() };
         if unused.is_empty() { Ok(system) } else { Err(SystemError::UnusedOptions(unused)) }
     }
 

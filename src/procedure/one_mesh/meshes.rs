@@ -205,11 +205,8 @@ impl Procedure<'_> {
             (Some(before), [one]) => before.shares_left(&problem, &found.solution, &one.of_triangles, self.session)?,
             _ => Vec::new(),
         };
-        let estimate = Estimate::new(&differences, shares_left, problem.scene.order, found.solution.residual, |own| {
-            let mut sum = [own];
-            self.session.sum(&mut sum);
-            sum[0]
-        });
+        let sum = |own: f64| self.session.sum([own])[0];
+        let estimate = Estimate::new(&differences, shares_left, problem.scene.order, found.solution.residual, sum);
         let OnMesh { solution, ending, passes, boundaries, preconditioning, solver, ascended } = found;
         Ok(Solved {
             problem,

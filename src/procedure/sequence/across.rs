@@ -42,9 +42,7 @@ fn longer(mesh: &MacroMesh, edge: u32, facing: &[u32]) -> Vec<u32> {
 
 /// Distance of a point from the chord of an edge.
 pub(crate) fn distance(mesh: &MacroMesh, x: Point, edge: u32) -> f64 {
-    let [a, b] = mesh.edge_ends(edge);
-    let along = ((x - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
-    (a + along * (b - a) - x).norm()
+    (mesh.foot_on_chord(edge, x) - x).norm()
 }
 
 #[cfg(test)]

@@ -26,7 +26,7 @@ pub fn judge(adaptation: &Adaptation, status: Status, reason: &str) -> (Status, 
 fn words(adaptation: &Adaptation) -> String {
     let goal = |place: usize| {
         let goal = &adaptation.accuracy.goals[place];
-        let reached = match estimate(adaptation, place) {
+        let reached = match adaptation.error(place) {
             // What is missed must not look like what was asked for.
             Some(error) if error > goal.tolerance => figure(rounded_up(error)),
             Some(error) => figure(error),
@@ -70,11 +70,6 @@ fn limits(Adaptation { accuracy, end, refusal, .. }: &Adaptation) -> String {
 /// Why a goal is missed whose estimate is what was asked for: on the first mesh that may be luck.
 fn first_mesh_words(adaptation: &Adaptation, place: usize) -> &'static str {
     let is_missed = adaptation.missed().any(|(missed, _)| missed == place);
-    let is_small = estimate(adaptation, place).is_some_and(|error| error <= adaptation.accuracy.goals[place].tolerance);
+    let is_small = adaptation.error(place).is_some_and(|error| error <= adaptation.accuracy.goals[place].tolerance);
     if is_missed && is_small { ", and a quarter of it on the first mesh" } else { "" }
-}
-
-/// Estimated error of a goal on the last mesh.
-fn estimate(adaptation: &Adaptation, place: usize) -> Option<f64> {
-    adaptation.meshes.last().and_then(|mesh| mesh.errors.get(place).copied().flatten())
 }

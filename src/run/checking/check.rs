@@ -145,9 +145,8 @@ fn body_lines(case: &Case) -> Vec<String> {
         let of = if body.has_parts() { format!("{}, part {}", body.name, part.name) } else { body.name.clone() };
         (format!("E = {young}{stress}, ν = {poisson}{plane}{}", heat.unwrap_or_default()), of)
     };
-    let all = case.bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (body, part)));
     let tool = |tool: &Tool| (if tool.motion.stays() { "rigid, stays" } else { "rigid" }.to_owned(), tool.key().to_owned());
-    let all = all.map(words).chain(case.tools.iter().map(tool));
+    let all = case.parts().map(words).chain(case.tools.iter().map(tool));
     lines_alike(["body", "bodies or parts"], all).into_iter().map(|(_, line)| line).collect()
 }
 

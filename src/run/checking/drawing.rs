@@ -102,7 +102,7 @@ fn remarks(words: &str, file: &Path) -> Vec<String> {
 pub(super) fn acting(case: &Case, mesh: &MacroMesh) -> (Vec<DrawnSupport>, Vec<DrawnLoad>) {
     let on = |names: &[String]| {
         let curves: Vec<String> = names.iter().flat_map(|name| case.curves_of(name)).collect();
-        let mut edges: Vec<u32> = curves.iter().filter_map(|name| mesh.boundary(name)).flat_map(|b| b.edges.clone()).collect();
+        let mut edges: Vec<u32> = mesh.edges_on(&curves).collect();
         edges.dedup();
         rows(mesh, &edges)
     };
@@ -140,9 +140,8 @@ fn contacts(case: &Case, mesh: &MacroMesh) -> Vec<NamedRows> {
     let mut sides: HashMap<&String, (Rows, usize)> = HashMap::new();
     for name in case.contacts.iter().flat_map(|pair| &pair.between) {
         let side = sides.entry(name).or_insert_with(|| {
-            let curves: Vec<&[u32]> =
-                case.curves_of(name).iter().filter_map(|name| mesh.boundary(name)).map(|b| b.edges.as_slice()).collect();
-            (rows(mesh, &curves.concat()), 0)
+            let edges: Vec<u32> = mesh.edges_on(&case.curves_of(name)).collect();
+            (rows(mesh, &edges), 0)
         });
         side.1 += 1;
     }

@@ -5,7 +5,7 @@ use super::proposals::{TableNames, common_name, digits, quoted};
 use crate::case::Tool;
 use crate::contact::Pair;
 use crate::geometry::{Curve, Point, cross, turn_right};
-use crate::mesh::{Boundary, LooseCurve, MacroMesh, SurfacePart};
+use crate::mesh::{Boundary, CurvePiece, LooseCurve, MacroMesh};
 use std::f64::consts::TAU;
 
 /// Points that are nearer than this share of its length to the line between the ends of a curve lie on it.
@@ -102,24 +102,24 @@ fn moved(normal: Point, way: f64) -> String {
 }
 
 /// Whether a curve is that of a tool: all of its points lie on that.
-fn is_drawn(curve: &LooseCurve, surface: &[SurfacePart]) -> bool {
+fn is_drawn(curve: &LooseCurve, surface: &[CurvePiece]) -> bool {
     let points = || curve.lines.iter().flatten();
     let size = points().map(|x| (x - curve.lines[0][0]).norm()).fold(0.0, f64::max);
     points().all(|x| surface.iter().any(|part| (foot(part, *x).0 - x).norm() <= ELSEWHERE * size))
 }
 
 /// The point of a part that is nearest to another point, and the normal there.
-fn foot(part: &SurfacePart, x: Point) -> (Point, Point) {
+fn foot(part: &CurvePiece, x: Point) -> (Point, Point) {
     let t = part.curve.nearest(x);
     let t = if part.curve.is_line() { t.clamp(part.range[0], part.range[1]) } else { t };
     (part.curve.point(t), turn_right(part.curve.tangent(t)))
 }
 
 /// The shape of a curve as a key of its table, and as a surface; nothing where it is neither a circle nor straight.
-fn shape_of(curve: &LooseCurve) -> Option<(String, SurfacePart)> {
+fn shape_of(curve: &LooseCurve) -> Option<(String, CurvePiece)> {
     if let Some(NodeCircle { centre, radius }) = NodeCircle::through(&curve.lines) {
         let [x, y, radius] = [centre.x, centre.y, radius].map(|part| digits(part, radius));
-        let surface = SurfacePart { curve: Curve::Circle { centre: [x, y], radius }, range: [0.0, TAU] };
+        let surface = CurvePiece { curve: Curve::Circle { centre: [x, y], radius }.into(), range: [0.0, TAU] };
         return Some((format!("circle = {{ centre = [{x:?}, {y:?}], radius = {radius:?} }}"), surface));
     }
     let points = curve.lines.as_flattened();
@@ -129,11 +129,11 @@ fn shape_of(curve: &LooseCurve) -> Option<(String, SurfacePart)> {
     let (way, size) = (last - first, (last - first).norm());
     let is_straight = points.iter().all(|x| cross(way, x - first).abs() <= STRAIGHT * size * size);
     let ends = [last, first].map(|x| [x.x, x.y].map(|part| digits(part, size)));
-    is_straight.then(|| (format!("line = {ends:?}"), SurfacePart { curve: Curve::Line(ends), range: [0.0, 1.0] }))
+    is_straight.then(|| (format!("line = {ends:?}"), CurvePiece { curve: Curve::Line(ends).into(), range: [0.0, 1.0] }))
 }
 
 /// The named boundary that a surface faces nearest, its normal there, and how far it is along that (length).
-fn pressed<'a>(mesh: &'a MacroMesh, tools: &[Tool], surface: &SurfacePart) -> Option<(&'a Boundary, Point, f64)> {
+fn pressed<'a>(mesh: &'a MacroMesh, tools: &[Tool], surface: &CurvePiece) -> Option<(&'a Boundary, Point, f64)> {
     let curves = mesh.physical_curves().into_iter().filter(|curve| !tools.iter().any(|tool| tool.has(&curve.name)));
     let named = curves.flat_map(|boundary| boundary.edges.iter().map(move |&edge| (boundary, edge)));
     let places = named.flat_map(|(boundary, edge)| [0.0, 0.5, 1.0].map(|t| (boundary, edge, t)));

@@ -5,7 +5,7 @@ use crate::body::{Body, BodyPart, HeldMode, MeanHold, Springs, Support, rigid_di
 use crate::case::{BodyExact, Case, ContactExact, ExpectedAt, LambdaExact};
 use crate::contact::ContactBoundary;
 use crate::discretisation::Contact;
-use crate::geometry::{Coordinates, Formula, Point, Rounded, gauss_points};
+use crate::geometry::{Coordinates, Formula, Point, Rounded};
 use crate::mesh::MacroMesh;
 
 /// A motion that moves a supported point, in the direction of the support, by less than this share of itself leaves it at rest.
@@ -19,16 +19,14 @@ const MOST_APART: f64 = 1e60;
 /// # Errors
 /// Words that begin with the key, and tell the remedy.
 pub fn check_moduli(case: &Case) -> Result<(), String> {
-    let bodies = case.bodies.iter().filter(|body| case.tool_of(&body.name).is_none());
     let young = |part: &BodyPart| part.material.young;
-    let parts: Vec<(&Body, &BodyPart)> = bodies.flat_map(|body| body.parts.iter().map(move |part| (body, part))).collect();
+    let parts: Vec<(&Body, &BodyPart)> = case.parts().collect();
     let hardest = parts.iter().map(|(_, part)| young(part)).fold(0.0, f64::max);
     match parts.iter().find(|(_, part)| hardest / young(part) > MOST_APART) {
         None => Ok(()),
         Some((body, part)) => Err(format!(
-            "body.{}{}: young = {:e} beside {hardest:e}: there is no computing with both; take a rigid tool for what is so hard, or leave out what is so soft",
-            body.name,
-            if body.has_parts() { format!(".part.{}", part.name) } else { String::new() },
+            "{}: young = {:e} beside {hardest:e}: there is no computing with both; take a rigid tool for what is so hard, or leave out what is so soft",
+            body.key_of(part),
             young(part)
         )),
     }
@@ -90,8 +88,7 @@ fn resisting<'a>(case: &Case, mesh: &MacroMesh, hold: &'a MeanHold) -> Option<(S
 
 /// Edges of some boundaries beside a body.
 fn edges_of(mesh: &MacroMesh, names: &[String], body: &str) -> Vec<u32> {
-    let edges = names.iter().filter_map(|name| mesh.boundary(name)).flat_map(|boundary| boundary.edges.iter().copied());
-    edges.filter(|&edge| mesh.bodies[mesh.body_beside(edge)] == body).collect()
+    mesh.edges_on(names).filter(|&edge| mesh.bodies[mesh.body_beside(edge)] == body).collect()
 }
 
 /// Ends and middles of such edges, with the normals there.
@@ -160,9 +157,7 @@ fn check_points(case: &Case, mesh: &MacroMesh, exact: &ContactExact) -> Result<(
 /// The nearest point on the chords of some edges, and how far it is.
 fn nearest(mesh: &MacroMesh, edges: &[u32], x: Point) -> Option<(Point, f64)> {
     let on_edge = |&edge: &u32| {
-        let [a, b] = mesh.edges[edge as usize].vertices.map(|vertex| mesh.vertices[vertex as usize]);
-        let share = ((x - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
-        let foot = a + share * (b - a);
+        let foot = mesh.foot_on_chord(edge, x);
         (foot, (x - foot).norm())
     };
     edges.iter().map(on_edge).min_by(|a, b| a.1.total_cmp(&b.1))
@@ -211,7 +206,5 @@ pub fn has_values(formula: &Formula, boundary: &ContactBoundary) -> Result<(), S
     if formula.as_constant().is_some() {
         return Ok(());
     }
-    let places =
-        boundary.knots().windows(2).flat_map(|ends| gauss_points(8).iter().map(|(z, _)| ends[0] + z * (ends[1] - ends[0])));
-    places.into_iter().try_for_each(|t| formula.finite_value(boundary.point(t)).map(|_| ()))
+    boundary.gauss_by_parameter(8).try_for_each(|(_, _, t, _)| formula.finite_value(boundary.point(t)).map(|_| ()))
 }

@@ -1,7 +1,7 @@
 //! What a run is made of: rank 0 alone reads the files, and all ranks work on its bytes.
 
 use crate::case::{Case, Inputs, fingerprint, read_text};
-use crate::mesh::{MacroMesh, read_bytes};
+use crate::mesh::read_bytes;
 use crate::petsc::Session;
 use crate::run::outcome::RunError;
 use crate::run::reading::scene;
@@ -37,14 +37,6 @@ pub(crate) fn share_mesh(case: &Case, wanted: Option<&Inputs>, session: &Session
     let bytes = session.share(|| scene::read_mesh_file(case));
     refuse_change(&case.mesh.file, &bytes, wanted.map(|inputs| &inputs.mesh))?;
     bytes.map_err(RunError::Input)
-}
-
-/// The mesh of a case from these bytes, bent, graded and checked. **Collective**
-///
-/// # Errors
-/// As of [`read_case`].
-pub(crate) fn parse_mesh(case: &Case, bytes: &[u8], session: &Session) -> Result<MacroMesh, RunError> {
-    session.agree(scene::read_mesh(case, bytes)).map_err(RunError::Input)
 }
 
 /// A file that cannot be read counts as an empty one.

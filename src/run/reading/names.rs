@@ -81,8 +81,7 @@ impl Names<'_> {
     pub fn check_plates(&self) -> Result<(), String> {
         for plate in &self.case.plates {
             let key = format!("load.{}.on", plate.name);
-            let edges = plate.on.iter().filter_map(|name| self.mesh.boundary(name)).flat_map(|boundary| &boundary.edges);
-            let pieces: BTreeSet<usize> = edges.map(|&edge| self.mesh.piece_beside(edge)).collect();
+            let pieces: BTreeSet<usize> = self.mesh.edges_on(&plate.on).map(|edge| self.mesh.piece_beside(edge)).collect();
             if pieces.len() > 1 {
                 return Err(format!("{key}: lies on {} bodies or pieces of one; give each a load of its own", pieces.len()));
             }
@@ -149,10 +148,7 @@ pub fn unknown_part(case: &Case, bytes: &[u8]) -> Option<String> {
 
 /// The physical surfaces of a body: the key of each in the case, and its name.
 fn surfaces_of(body: &Body) -> impl Iterator<Item = (String, &String)> {
-    body.parts.iter().map(move |part| match part.name == body.name {
-        true => (format!("body.{}", body.name), &part.name),
-        false => (format!("body.{}.part.{}", body.name, part.name), &part.name),
-    })
+    body.parts.iter().map(move |part| (body.key_of(part), &part.name))
 }
 
 /// What a mesh has instead of a name that it has not.

@@ -5,7 +5,7 @@ use crate::case::{Case, CaseError, LoadStep};
 use crate::discretisation::{self, Scene};
 use crate::element::Plane;
 use crate::geometry::{Coordinates, Formula, Point, Rounded};
-use crate::mesh::{MacroMesh, Partition, parse_joined, read_bytes, touching_surfaces};
+use crate::mesh::{MacroMesh, Partition, parse_gmsh, read_bytes, touching_surfaces};
 use crate::petsc::Session;
 use crate::procedure::Procedure;
 use crate::run::outcome::RunError;
@@ -32,7 +32,7 @@ pub fn read_mesh_file(case: &Case) -> Result<Vec<u8>, String> {
 /// Words with file, key, value and remedy.
 pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
     let in_file = |words: String| format!("{}: {words}", case.file.display());
-    let mesh = parse_joined(bytes, &case.mesh.file, joined(case));
+    let mesh = parse_gmsh(bytes, &case.mesh.file, joined(case));
     let mut mesh = mesh.map_err(|error| unknown_part(case, bytes).map_or_else(|| error.to_string(), in_file))?;
     mesh.set_plane(case.plane).map_err(|error| error.to_string())?;
     let names = Names { case, mesh: &mesh };
@@ -73,10 +73,10 @@ fn completed(case: &Case, mut mesh: MacroMesh) -> Result<MacroMesh, String> {
 /// The mesh of a case that cannot be read whole: with the shapes that it can have, whatever is wrong with names. Nothing if the
 /// file is no mesh.
 pub fn read_bare_mesh(case: &Case, bytes: &[u8]) -> Option<MacroMesh> {
-    let mut mesh = parse_joined(bytes, &case.mesh.file, joined(case)).ok().or_else(|| {
+    let mut mesh = parse_gmsh(bytes, &case.mesh.file, joined(case)).ok().or_else(|| {
         let groups = touching_surfaces(bytes, &case.mesh.file).ok()?;
         let together = |group: &Vec<String>| group.iter().map(|name| (name.clone(), group[0].clone())).collect::<Vec<_>>();
-        parse_joined(bytes, &case.mesh.file, groups.iter().flat_map(together).collect()).ok()
+        parse_gmsh(bytes, &case.mesh.file, groups.iter().flat_map(together).collect()).ok()
     })?;
     for geometry in &case.geometries {
         let mut bent = mesh.clone();
@@ -90,7 +90,7 @@ pub fn read_bare_mesh(case: &Case, bytes: &[u8]) -> Option<MacroMesh> {
 /// What is wrong with a case file, and with the names of what could be read of it if its mesh can be read: all of it at once.
 pub fn told_with_names(error: &CaseError, draft: Option<Case>) -> String {
     let wrong = |case: Case| {
-        let mesh = parse_joined(&read_mesh_file(&case).ok()?, &case.mesh.file, joined(&case)).ok()?;
+        let mesh = parse_gmsh(&read_mesh_file(&case).ok()?, &case.mesh.file, joined(&case)).ok()?;
         Some(Names { case: &case, mesh: &mesh }.wrong())
     };
     together(&[vec![error.to_string()], draft.and_then(wrong).unwrap_or_default()].concat())
@@ -114,7 +114,7 @@ fn add_tools(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
 
 /// The body of each physical surface that is a part of one.
 fn joined(case: &Case) -> HashMap<String, String> {
-    let parts = case.bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (&part.name, &body.name)));
+    let parts = case.parts().map(|(body, part)| (&part.name, &body.name));
     parts.filter(|(part, body)| part != body).map(|(part, body)| (part.clone(), body.clone())).collect()
 }
 
@@ -200,14 +200,12 @@ fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
 
 /// A temperature has a value at every vertex of what it heats, where stresses are shown.
 fn check_temperatures(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
-    let parts = case.bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (body, part)));
-    for (body, part) in parts {
+    for (body, part) in case.parts() {
         let Some(heat) = &part.heat else { continue };
-        let key = if body.has_parts() { format!("{}.part.{}", body.name, part.name) } else { body.name.clone() };
         let own = mesh.triangles.iter().filter(|triangle| mesh.parts[triangle.part as usize].name == part.name);
         for vertex in own.flat_map(|triangle| triangle.vertices) {
             let value = heat.temperature.finite_value(mesh.vertices[vertex as usize]);
-            value.map_err(|words| format!("body.{key}.temperature: {words}"))?;
+            value.map_err(|words| format!("{}.temperature: {words}", body.key_of(part)))?;
         }
     }
     Ok(())
@@ -239,7 +237,7 @@ fn check_springs(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
 
 /// Points of probes and of exact displacements lie in their bodies.
 fn check_points(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
-    let probes = case.probes.iter().map(|probe| (format!("probe.{}.point", probe.name), &probe.body, probe.point));
+    let probes = case.probes.iter().map(|probe| (format!("probe.{}.point", probe.name), &probe.body, probe.point.into()));
     let exact = case.exact.bodies.iter().flat_map(|exact| {
         let points = exact.displacement.iter().flat_map(|displacement| &displacement.at);
         points.map(|&point| (format!("exact.body.{}.displacement.at", exact.name), &exact.name, point))

@@ -100,9 +100,8 @@ pub fn facets_of_zoom(found: &Evaluation, stress: impl Fn(usize, usize) -> [f64;
     loop {
         let is_shown = |corners: &[DrawnNode; 3]| zoom.shows(&corners.each_ref().map(DrawnNode::moved));
         let counts: Vec<usize> = drawn.iter().map(|&triangle| corners(found, triangle, step).filter(is_shown).count()).collect();
-        let mut count = [counts.iter().sum::<usize>() as f64];
-        session.sum(&mut count);
-        if step == 1 || 4.0 * count[0] > MOST_FACETS as f64 {
+        let [count] = session.sum([counts.iter().sum::<usize>() as f64]);
+        if step == 1 || 4.0 * count > MOST_FACETS as f64 {
             return gather_facets(found, stress, &drawn, step, |corners| zoom.shows(corners));
         }
         // On a coarse lattice a bulge may be missed.

@@ -152,10 +152,9 @@ fn drawn_forces(scene: &Scene, contacts: &[Contact], summary: &Summary, thicknes
     for (piece, [low, high]) in scene.mesh.pieces.iter().zip(scene.mesh.bounds()) {
         sizes[piece.body] = sizes[piece.body].min((high - low).amin());
     }
-    let is_tool = |body: usize| scene.rigid.iter().any(|set| set.key == scene.mesh.bodies[body]);
     let force = |contact: &Contact| {
         let found = summary.contact.get(&contact.pair.name)?;
-        let own = contact.bodies.into_iter().filter(|&body| !is_tool(body)).map(|body| sizes[body]);
+        let own = contact.bodies.into_iter().filter(|&body| !scene.is_rigid(body)).map(|body| sizes[body]);
         let reach = REACH * own.fold(f64::INFINITY, f64::min);
         let is_deformed = contact.pair.configuration == Configuration::Deformed;
         let force = found.resultant?.map(|part| thickness * part);

@@ -39,9 +39,8 @@ impl Run<'_> {
             let run = self.of_step(step)?;
             let solved = run.solve(scene::of_step(step, scene), before.as_ref()).map_err(|error| error.in_step(step))?;
             let summary = run.summarise(&solved).map_err(|error| error.in_step(step))?;
-            let mut seconds = [started.elapsed().as_secs_f64()];
-            self.session.max(&mut seconds);
-            rows.push(StepSummary::new(step.number, &step.factors, &summary, seconds[0]));
+            let [seconds] = self.session.max([started.elapsed().as_secs_f64()]);
+            rows.push(StepSummary::new(step.number, &step.factors, &summary, seconds));
             if summary.status != Status::Converged {
                 let how = if summary.status == Status::Unresolved { "resolved" } else { "converged" };
                 let reason = summary.reason.as_deref().unwrap_or_default();

@@ -1,7 +1,8 @@
 //! A contact in the terms of the summary.
 
 use super::zones::{Zones, contact_estimate};
-use crate::contact::{Configuration, MultiplierSpace};
+use crate::case::Choice;
+use crate::contact::Configuration;
 use crate::geometry::Point;
 use crate::output::summary::{ContactEstimate, ContactSummary, ContactTrust};
 use crate::procedure::Solved;
@@ -13,7 +14,7 @@ pub fn contact(solved: &Solved, found: &Evaluation, at: usize, points: &[TracePo
     let pressure = found.pressure(at);
     let contact = pressure.contact;
     let boundary = &contact.boundary;
-    let (knots, force, penetration) = (boundary.knots(), &balance.contacts[at], &found.penetrations[at]);
+    let (force, penetration) = (&balance.contacts[at], &found.penetrations[at]);
     let point = |s: f64| -> [f64; 2] { boundary.point(boundary.parameter_at(s)).into() };
     let zones = Zones::new(solved, at, points);
     let closed = zones.closed();
@@ -28,10 +29,10 @@ pub fn contact(solved: &Solved, found: &Evaluation, at: usize, points: &[TracePo
     let described = ContactSummary {
         length: Some(boundary.length()),
         segments: Some(boundary.segments()),
-        multiplier: Some(space_name(contact.pair.space).into()),
+        multiplier: Some(contact.pair.space.word().into()),
         h_ratio: Some(contact.segment_ratio),
         inf_sup: solution.inf_sup.get(at).copied().flatten(),
-        ends: Some([knots[0], knots[knots.len() - 1]].map(|t| boundary.point(t).into())),
+        ends: Some(boundary.ends().map(|t| boundary.point(t).into())),
         closed_edges: zones.closed_edges(),
         closed_points: Some(closed.iter().map(|ends| ends.map(point)).collect()),
         force: Some(force.force),
@@ -66,13 +67,4 @@ pub fn contact(solved: &Solved, found: &Evaluation, at: usize, points: &[TracePo
 fn nearest(points: &[TracePoint]) -> Option<Point> {
     let nearest = points.iter().filter(|point| point.gap.is_finite()).min_by(|a, b| a.gap.total_cmp(&b.gap));
     nearest.map(|point| point.x)
-}
-
-/// Name of a multiplier space in the case file.
-fn space_name(space: MultiplierSpace) -> &'static str {
-    match space {
-        MultiplierSpace::P0 => "p0",
-        MultiplierSpace::P1Discontinuous => "p1-discontinuous",
-        MultiplierSpace::P1Continuous => "p1-continuous",
-    }
 }

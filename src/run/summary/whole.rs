@@ -1,7 +1,8 @@
 //! What is known of a whole solution: of its mesh and its solver without the fields, and what these say of bodies, supports and what
 //! is rigid.
 
-use crate::case::{Case, Probe};
+use crate::accuracy::ProbePoint;
+use crate::case::Case;
 use crate::element::{Order, Plane};
 use crate::geometry::Point;
 use crate::output::summary::{
@@ -120,11 +121,11 @@ fn balance(Evaluation { balance, .. }: &Evaluation) -> BalanceSummary {
 
 /// **Collective**
 fn probes(case: &Case, found: &Evaluation) -> Result<BTreeMap<String, ProbeSummary>, RunError> {
-    let probe = |asked: &Probe| -> Result<(String, ProbeSummary), RunError> {
+    let probe = |asked: &ProbePoint| -> Result<(String, ProbeSummary), RunError> {
         let region = found.problem.scene.mesh.region(&asked.body).expect("checked names");
-        let probed = found.probe(region, Point::new(asked.point[0], asked.point[1]))?.ok_or_else(|| outside(asked.point))?;
+        let probed = found.probe(region, asked.point)?.ok_or_else(|| outside(asked.point.into()))?;
         let [xx, yy, xy, zz] = probed.stress;
-        let (x, u) = (Some(asked.point), Some(probed.displacement.into()));
+        let (x, u) = (Some(asked.point.into()), Some(probed.displacement.into()));
         let hoop = (case.plane == Plane::Revolution).then_some(zz);
         let told = ProbeSummary { x, u, stress: Some([xx, yy, xy]), hoop };
         Ok((asked.name.clone(), told))

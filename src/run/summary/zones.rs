@@ -1,6 +1,6 @@
 //! What each zone of a contact that presses is, and what is estimated of its pressure.
 
-use crate::contact::{Zone, zone_counts};
+use crate::contact::Zone;
 use crate::discretisation::Contact;
 use crate::output::summary::{ContactEstimate, ZoneSummary};
 use crate::procedure::Solved;
@@ -19,19 +19,13 @@ pub struct Zones<'a> {
     points: &'a [TracePoint],
     contact: &'a Contact,
     zones: Vec<Zone>,
-    forces: Vec<f64>,
-    peaks: Vec<f64>,
 }
 
 impl<'a> Zones<'a> {
     /// The zones of contact `at`; `points` are its traces.
     pub fn new(solved: &'a Solved, at: usize, points: &'a [TracePoint]) -> Self {
         let contact = &solved.problem.contacts[at];
-        let pressure = solved.solution.pressure(contact);
-        let zones = pressure.zones();
-        let forces = zones.iter().map(|zone| pressure.force_of(zone)).collect();
-        let peaks = zones.iter().map(|zone| pressure.peak_of(zone)).collect();
-        Self { solved, at, points, contact, zones, forces, peaks }
+        Self { solved, at, points, contact, zones: solved.solution.pressure(contact).zones() }
     }
 
     /// Arc lengths of their ends; on a closed boundary they may go on beyond its seam.
@@ -51,17 +45,9 @@ impl<'a> Zones<'a> {
         self.zones.iter().map(|zone| self.contact.edges_on(zone)).reduce(f64::max)
     }
 
-    /// Shares of the force of the contact.
-    fn shares(&self) -> impl Iterator<Item = f64> {
-        let whole: f64 = self.forces.iter().map(|force| force.abs()).sum();
-        self.forces.iter().map(move |force| force / whole)
-    }
-
     /// Arcs of the zones that anyone would look at.
     pub fn counting(&self) -> Vec<[f64; 2]> {
-        let highest = self.peaks.iter().copied().fold(0.0, f64::max);
-        let figures = self.shares().zip(&self.peaks).zip(self.arcs());
-        figures.filter(|((share, peak), _)| zone_counts(*share, **peak, highest)).map(|(_, arcs)| arcs).collect()
+        self.solved.solution.pressure(self.contact).counting(&self.zones, self.arcs()).collect()
     }
 
     /// Each zone as the summary has it; `corner_error` is what corners within the contact do to λ.
@@ -89,7 +75,7 @@ impl<'a> Zones<'a> {
                 segments: Some(contact.segments_on(zone)),
                 share: Some(share),
                 hertz_width: pressure.hertz_width(zone, points),
-                pressure_max: Some(self.peaks[k]),
+                pressure_max: Some(pressure.peak_of(zone)),
                 lambda: found.pressure.filter(tells),
                 whole: found.inside.filter(tells),
                 worst: found.worst,
@@ -103,7 +89,7 @@ impl<'a> Zones<'a> {
                 corner: Some((0..2).any(|end| pressure.ends_at_a_corner(&problem.scene.mesh, zone, end))),
             }
         };
-        self.shares().enumerate().map(describe).collect()
+        pressure.shares(zones).into_iter().enumerate().map(describe).collect()
     }
 }
 

@@ -222,9 +222,8 @@ impl Report {
         let Stages { mesh, assemble, contact, setup, solve, output } = stages;
         let [mesh, assemble, contact, setup, solve, output] =
             [mesh, assemble, contact, setup, solve, output].map(|stage| stage.seconds());
-        let mut seconds = [mesh, assemble, contact, setup, solve, output, self.started.elapsed().as_secs_f64()];
-        session.max(&mut seconds);
-        let [mesh, assemble, contact, setup, solve, output, total] = seconds.map(Some);
+        let seconds = [mesh, assemble, contact, setup, solve, output, self.started.elapsed().as_secs_f64()];
+        let [mesh, assemble, contact, setup, solve, output, total] = session.max(seconds).map(Some);
         Time { mesh, assemble, contact, setup, solve, output, total }
     }
 
@@ -277,8 +276,6 @@ fn untrusted(summary: &Summary) -> Option<String> {
 pub fn memory(session: &Session) -> Memory {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let own = value(&status, "VmHWM:").unwrap_or(f64::NAN) / 1024.0;
-    let (mut largest, mut sum) = ([own], [own]);
-    session.max(&mut largest);
-    session.sum(&mut sum);
-    Memory { max_rank: Some(largest[0]), sum: Some(sum[0]) }
+    let [max_rank, sum] = [session.max([own]), session.sum([own])].map(|[value]| Some(value));
+    Memory { max_rank, sum }
 }

@@ -4,11 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use serde::Serialize;
-use serde_json::Value;
 
 use super::fit::{PowerLaw, front};
 use super::repeats::Spread;
-use super::rows::once;
+use super::rows::{krylov_iterations, once};
 use crate::study::plan::Plan;
 use crate::study::plan::planned::PlannedRun;
 use crate::study::runs::ended::{Ended, RunStatus};
@@ -122,10 +121,9 @@ fn point(plan: &Plan, repeats: &[Ended]) -> Option<LinePoint> {
     let converged: Vec<&Ended> = repeats.iter().filter(|ended| ended.status == RunStatus::Converged).collect();
     let first = converged.first()?;
     let summary = &first.summary;
-    let iterations = summary["solver"]["iterations"].as_array().map(|list| list.iter().filter_map(Value::as_f64).sum());
     Some(LinePoint {
         unknowns: summary["unknowns"]["displacement"].as_f64()?,
-        iterations,
+        iterations: krylov_iterations(summary).map(|count| count as f64),
         time: Spread::of(converged.iter().filter_map(|ended| plan.time.of(&ended.summary).as_f64()).collect()),
         errors: plan.errors.iter().filter_map(|path| Some((path.text.clone(), path.of(summary).as_f64()?))).collect(),
         memory: summary["memory_mib"]["sum"].as_f64(),

@@ -152,7 +152,7 @@ fn cells<'a>(
 }
 
 /// Of all linear solves.
-fn krylov_iterations(summary: &Value) -> Option<u64> {
+pub fn krylov_iterations(summary: &Value) -> Option<u64> {
     summary["solver"]["iterations"].as_array().map(|list| list.iter().filter_map(Value::as_u64).sum())
 }
 

@@ -140,8 +140,8 @@ impl BorderBlocks {
             column.forces.extend_from_slice(&self.border.components[column.component].forces);
         }
         for (i, weighted) in weighted.iter().enumerate().filter(|(_, weighted)| !weighted.is_empty()) {
-            for (node, value) in rows.row(i).iter().filter(|(node, _)| space.own.contains(node)) {
-                let at = (2 * (node - space.own.start)) as u32;
+            for (at, value) in rows.own_row(i, &space.own) {
+                let at = at as u32;
                 for &(j, weight) in weighted {
                     self.columns[place[j]].forces.extend([(at, weight * value.x), (at + 1, weight * value.y)]);
                 }

@@ -113,6 +113,20 @@ impl CouplingRows {
         &self.entries[self.starts[multiplier] as usize..self.starts[multiplier + 1] as usize]
     }
 
+    /// Entries of one multiplier on the nodes of a rank, each with the place of their first unknown among its own.
+    pub fn own_row<'a>(&'a self, multiplier: usize, own: &'a Range<usize>) -> impl Iterator<Item = (usize, Point)> + 'a {
+        let entries = self.row(multiplier).iter().filter(|(node, _)| own.contains(node));
+        entries.map(|(node, value)| (2 * (node - own.start), *value))
+    }
+
+    /// Adds a multiple of one multiplier's row to the displacement entries of a rank.
+    pub fn add_row(&self, multiplier: usize, factor: f64, own: &Range<usize>, sums: &mut [f64]) {
+        for (at, value) in self.own_row(multiplier, own) {
+            sums[at] += factor * value.x;
+            sums[at + 1] += factor * value.y;
+        }
+    }
+
     /// Nodes coupled to each of the `own` nodes by `BᵀDB`, whatever the active set; `groups` are the multipliers that `D` couples.
     pub fn neighbours(&self, groups: &[Range<usize>], own: &Range<usize>) -> BTreeMap<usize, BTreeSet<usize>> {
         let mut neighbours: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();

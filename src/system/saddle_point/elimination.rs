@@ -63,9 +63,7 @@ impl BorderBlocks {
             BorderUnknown::Motion(j) => self.column(*j).map_or(0.0, |column| dot(&column.balance, lambda)),
             BorderUnknown::Mean(_) => 0.0,
         };
-        let mut sums: Vec<f64> = unknowns.iter().map(row).collect();
-        self.session.sum(&mut sums);
-        sums
+        self.session.sum(unknowns.iter().map(row).collect())
     }
 
     fn column(&self, component: usize) -> Option<&BorderColumn> {
@@ -117,21 +115,19 @@ impl BorderBlocks {
         }
     }
 
-    /// `y + V p`, in what is linked.
-    fn add_moved(&self, p: &BorderValues, y: &mut [f64]) {
+    /// `y - V p`, in what is linked.
+    fn subtract_moved(&self, p: &BorderValues, y: &mut [f64]) {
         for &j in &self.linked {
-            self.add_column(BorderUnknown::Motion(j), p.motion[j], true, y);
+            self.add_column(BorderUnknown::Motion(j), -p.motion[j], true, y);
             if p.mean[j] != 0.0 {
-                self.add_column(BorderUnknown::Mean(j), p.mean[j], true, y);
+                self.add_column(BorderUnknown::Mean(j), -p.mean[j], true, y);
             }
         }
     }
 
     /// `y - V E⁻¹ Wᵀ x`. **Collective**
     fn subtract_eliminated(&self, x: &[f64], y: &mut [f64]) {
-        let mut sums = self.sums(x);
-        sums.motion.iter_mut().chain(&mut sums.mean).for_each(|sum| *sum = -*sum);
-        self.add_moved(&self.pivot(&sums), y);
+        self.subtract_moved(&self.pivot(&self.sums(x)), y);
     }
 
     /// `h` from loads, means and gaps of all multipliers.
@@ -154,9 +150,7 @@ impl BorderBlocks {
 
     /// `b - V E⁻¹ h`.
     pub fn subtract_given(&self, [loads, asked]: &[Vec<f64>; 2], gap: &[f64], b: &mut [f64]) {
-        let mut p = self.pivot(&self.right_hand_side(loads, asked, gap));
-        p.motion.iter_mut().chain(&mut p.mean).for_each(|value| *value = -*value);
-        self.add_moved(&p, b);
+        self.subtract_moved(&self.pivot(&self.right_hand_side(loads, asked, gap)), b);
     }
 
     /// `q = E⁻¹ (h - Wᵀ x)`, where rigid sets cannot tell as it was `before`. **Collective**
@@ -164,8 +158,7 @@ impl BorderBlocks {
         let (mut left, sums) = (self.right_hand_side(loads, asked, gap), self.sums(x));
         left.motion.iter_mut().zip(sums.motion).for_each(|(left, sum)| *left -= sum);
         let mean = |component: &RigidComponent| component.mean.as_ref().map_or(0.0, |mean| dot(mean, &x[..self.unknowns]));
-        let mut means: Vec<f64> = self.border.components.iter().map(mean).collect();
-        self.session.sum(&mut means);
+        let means: Vec<f64> = self.session.sum(self.border.components.iter().map(mean).collect());
         left.mean.iter_mut().zip(means).for_each(|(left, mean)| *left -= mean);
         let (mut found, arms) = (self.pivot(&left).motion, self.arms());
         let kept = &self.untold * DVector::from_fn(arms.len(), |j, _| before[j] * arms[j]);

@@ -204,10 +204,8 @@ impl SaddlePoint {
     pub fn penetration(&self, u: &[f64], motion: &[f64], space: &Space, session: &Session) -> Vec<f64> {
         let mut all = vec![0.0; self.gap.len()];
         for (i, sum) in all.iter_mut().enumerate() {
-            for &(node, entry) in self.finest_rows().row(i).iter().filter(|(node, _)| space.own.contains(node)) {
-                let at = 2 * (node - space.own.start);
-                *sum += entry.x * u[at] + entry.y * u[at + 1];
-            }
+            let entries = self.finest_rows().own_row(i, &space.own);
+            entries.for_each(|(at, entry)| *sum += entry.x * u[at] + entry.y * u[at + 1]);
         }
         session.sum(&mut all);
         all.iter_mut().zip(&self.gap).for_each(|(sum, gap)| *sum -= gap);
@@ -224,22 +222,12 @@ impl SaddlePoint {
 
     /// Right-hand side: `f + Bᵀ D c`, and `ĉ` on active multipliers, without what rigid motions do. **Collective**
     pub fn right_hand_side(&self, space: &Space) -> Result<Vector, SystemError> {
-        self.right_hand_side_with(|values| self.load.put(values), &self.gap, &self.given(), space)
+        self.right_hand_side_of(|values| self.load.put(values), &self.gap, &self.given(), space)
     }
 
-    /// The same for other nodal forces of this rank, other gaps, and others of [`Self::given`]. **Collective**
+    /// The same for other nodal forces of this rank, which are put where zeros were, other gaps, and others of [`Self::given`].
+    /// **Collective**
     pub fn right_hand_side_of(
-        &self,
-        load: &[f64],
-        gap: &[f64],
-        given: &[Vec<f64>; 2],
-        space: &Space,
-    ) -> Result<Vector, SystemError> {
-        self.right_hand_side_with(|values| values.copy_from_slice(load), gap, given, space)
-    }
-
-    /// The same with nodal forces that are put where zeros were. **Collective**
-    fn right_hand_side_with(
         &self,
         load: impl FnOnce(&mut [f64]),
         gap: &[f64],
@@ -274,11 +262,7 @@ impl SaddlePoint {
         forces.set(0.0)?;
         let mut values = forces.values_mut();
         for (i, pressure) in pressures.iter().enumerate().filter(|(_, pressure)| **pressure != 0.0) {
-            for &(node, value) in self.finest_rows().row(i).iter().filter(|(node, _)| space.own.contains(node)) {
-                let at = 2 * (node - space.own.start);
-                values[at] += pressure * value.x;
-                values[at + 1] += pressure * value.y;
-            }
+            self.finest_rows().add_row(i, *pressure, &space.own, &mut values);
         }
         drop(values);
         Ok([loads, forces.norm()?])
@@ -303,11 +287,7 @@ impl SaddlePoint {
         for block in self.augmentation.iter() {
             for (p, i) in block.rows.clone().enumerate() {
                 let weighted: f64 = block.rows.clone().enumerate().map(|(q, j)| block.values[p][q] * r[j]).sum();
-                for &(node, value) in self.finest_rows().row(i).iter().filter(|(node, _)| space.own.contains(node)) {
-                    let at = 2 * (node - space.own.start);
-                    sums[at] += factor * weighted * value.x;
-                    sums[at + 1] += factor * weighted * value.y;
-                }
+                self.finest_rows().add_row(i, factor * weighted, &space.own, sums);
             }
         }
     }
@@ -328,6 +308,5 @@ fn moved_gap(problem: &Discretisation, session: &Session) -> Vec<f64> {
     let prescribed = |coupled: &Coupled| coupled.value.dot(&space.prescribed(coupled.node.number(mesh, &space.numbering)));
     let mut moved = vec![0.0; coupling.gap.len()];
     coupling.own(0..moved.len(), session.rank()).for_each(|i| moved[i] = coupling.rows[i].iter().map(prescribed).sum());
-    session.sum(&mut moved);
-    coupling.gap.iter().zip(moved).map(|(c, moved)| c - moved).collect()
+    coupling.gap.iter().zip(session.sum(moved)).map(|(c, moved)| c - moved).collect()
 }

@@ -211,8 +211,7 @@ impl MultiplierBlocks {
     pub fn collect(&self, own: &[f64], session: &Session) -> Vec<f64> {
         let mut all = vec![0.0; self.scale.len()];
         self.own.iter().zip(own).for_each(|(&i, &value)| all[i] = value);
-        session.sum(&mut all);
-        all
+        session.sum(all)
     }
 }
 

@@ -3,7 +3,7 @@
 //! It has no dimension, and is right for floating bodies, too. With an inexact inverse of `K_γ` the figure would be that of the
 //! preconditioner; hence the factor, and hence the limit to few unknowns.
 
-use super::options::MOST_REDUNDANT;
+use super::options::{FACTOR, FIELD_SPLIT, MOST_REDUNDANT, Options, REDUNDANT_FACTOR};
 use crate::discretisation::{Contact, SystemError};
 use crate::petsc::{Krylov, Session, options};
 use crate::system::saddle_point::SaddlePoint;
@@ -15,25 +15,10 @@ const MOST_ITERATIONS: usize = 60;
 /// Above this eigenvalue the constant is so large that the figure would be rounding.
 const MOST_EIGENVALUE: f64 = 0.9999;
 
-/// Own options: the recipe of the solver, with a factor of `K + BᵀDB` for the displacements.
-const OPTIONS: [(&str, &str); 9] = [
-    ("-inf_sup_ksp_type", "gmres"),
-    ("-inf_sup_ksp_pc_side", "right"),
-    ("-inf_sup_ksp_gmres_restart", "60"),
-    ("-inf_sup_ksp_norm_type", "unpreconditioned"),
-    ("-inf_sup_fieldsplit_u_ksp_type", "preonly"),
-    ("-inf_sup_fieldsplit_u_pc_type", "cholesky"),
-    ("-inf_sup_fieldsplit_u_pc_factor_mat_solver_type", "mumps"),
-    ("-inf_sup_fieldsplit_lambda_ksp_type", "preonly"),
-    ("-inf_sup_fieldsplit_lambda_pc_type", "redundant"),
-];
-
-/// Where unknowns are few, each rank makes the factor for itself: the constant has the same digits in each run then.
-const REDUNDANT: [(&str, &str); 3] = [
-    ("-inf_sup_fieldsplit_u_pc_type", "redundant"),
-    ("-inf_sup_fieldsplit_u_redundant_pc_type", "cholesky"),
-    ("-inf_sup_fieldsplit_u_redundant_pc_factor_mat_solver_type", "mumps"),
-];
+/// What begins the names of its own options.
+const PREFIX: &str = "inf_sup_";
+/// Its own options beside the recipe of the solver, with a factor of `K + BᵀDB` for the displacements.
+const OWN: Options = &[("-ksp_type", "gmres"), ("-fieldsplit_lambda_pc_type", "redundant")];
 
 /// Discrete inf-sup constants, `β² = g / (α (1 - g))` with `g` the smallest eigenvalue of `D (B K_γ⁻¹ Bᵀ)` over the
 /// active multipliers of the contact. With an exact `K_γ⁻¹` the preconditioned system has no other eigenvalues but 1,
@@ -45,11 +30,12 @@ const REDUNDANT: [(&str, &str); 3] = [
 pub fn inf_sup(system: &SaddlePoint, contacts: &[Contact], session: &Session) -> Result<Vec<Option<f64>>, SystemError> {
     let unknowns = system.finest_stiffness().operator().size().0;
     let is_redundant = session.size() > 1 && unknowns <= MOST_REDUNDANT;
-    let redundant: &[(&str, &str)] = if is_redundant { &REDUNDANT } else { &[] };
-    for (name, value) in OPTIONS.iter().chain(redundant) {
-        options::set_default(session, name, value)?;
+    // Where unknowns are few, each rank makes the factor for itself: the constant has the same digits in each run then.
+    let redundant: Options = if is_redundant { REDUNDANT_FACTOR } else { &[] };
+    for (name, value) in FIELD_SPLIT.iter().chain(OWN).chain(FACTOR).chain(redundant) {
+        options::set_default(session, &name.replacen('-', &format!("-{PREFIX}"), 1), value)?;
     }
-    let krylov = Krylov::new(session, "inf_sup_")?;
+    let krylov = Krylov::new(session, PREFIX)?;
     krylov.keep_eigenvalues()?;
     let stored = system.stored_nest(session)?;
     let nest = stored.as_ref().unwrap_or(&system.nest);

@@ -133,32 +133,35 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The next binary whole numbers of four bytes.
-    pub fn whole<const N: usize>(&mut self, section: &str) -> Result<[i64; N], MeshError> {
-        let mut values = [0; N];
+    /// The next binary numbers of `WIDTH` bytes, each made of its bytes by the first way if the highest is the first, or by the
+    /// second.
+    fn numbers<T: Copy + Default, const N: usize, const WIDTH: usize>(
+        &mut self,
+        section: &str,
+        [high_first, low_first]: [fn([u8; WIDTH]) -> T; 2],
+    ) -> Result<[T; N], MeshError> {
+        let of = if self.encoding == Encoding::BigEndian { high_first } else { low_first };
+        let mut values = [T::default(); N];
         for value in &mut values {
-            let bytes = self.bytes(section)?;
-            let number = if self.encoding == Encoding::BigEndian { i32::from_be_bytes(bytes) } else { i32::from_le_bytes(bytes) };
-            *value = i64::from(number);
+            *value = of(self.bytes(section)?);
         }
         Ok(values)
     }
 
+    /// The next binary whole numbers of four bytes.
+    pub fn whole<const N: usize>(&mut self, section: &str) -> Result<[i64; N], MeshError> {
+        Ok(self.numbers(section, [i32::from_be_bytes, i32::from_le_bytes])?.map(i64::from))
+    }
+
     /// The next binary number of eight bytes that is at least 0: a count, or a tag.
     pub fn size(&mut self, section: &str) -> Result<i64, MeshError> {
-        let bytes = self.bytes(section)?;
-        let number = if self.encoding == Encoding::BigEndian { u64::from_be_bytes(bytes) } else { u64::from_le_bytes(bytes) };
+        let [number] = self.numbers(section, [u64::from_be_bytes, u64::from_le_bytes])?;
         i64::try_from(number).map_err(|_| self.error(format!("in ${section}, found {number} where a count or a tag stands")))
     }
 
     /// The next binary floating-point numbers.
     pub fn floats<const N: usize>(&mut self, section: &str) -> Result<[f64; N], MeshError> {
-        let mut values = [0.0; N];
-        for value in &mut values {
-            let bytes = self.bytes(section)?;
-            *value = if self.encoding == Encoding::BigEndian { f64::from_be_bytes(bytes) } else { f64::from_le_bytes(bytes) };
-        }
-        Ok(values)
+        self.numbers(section, [f64::from_be_bytes, f64::from_le_bytes])
     }
 
     /// Passes over so many binary numbers of `width` bytes.

@@ -60,17 +60,13 @@ pub(super) struct Elements {
     nodes: Vec<(i64, u32)>,
     /// Whether the tags are those of the first node and the next ones, in the order of the vertices: in most files.
     are_consecutive: bool,
-    mesh: RawMesh,
+    /// What they have come to.
+    pub mesh: RawMesh,
     /// The physical group of the last element that had but one, or none, and the number of its names.
     last: Option<(Option<Entity>, u32)>,
 }
 
 impl Elements {
-    /// All that has been read, from which the mesh is made.
-    pub fn into_mesh(self) -> RawMesh {
-        self.mesh
-    }
-
     /// Adds a node. `cursor` is just behind it.
     pub fn add_node(&mut self, cursor: &Cursor, tag: i64, x: [f64; 3]) -> Result<(), MeshError> {
         if x.iter().any(|value| !value.is_finite()) {

@@ -30,14 +30,6 @@ const START: usize = 4096;
 const PARTITIONED: &str =
     "is partitioned; save it whole (drop `PartitionMesh` or `-part`): mezha spreads the mesh over its ranks itself";
 
-/// Reads a Gmsh file: each physical surface becomes a body, physical curves become boundaries.
-///
-/// # Errors
-/// [`MeshError`] with file and place, what was found, and the gmsh command that mends it.
-pub fn read_gmsh(file: &Path) -> Result<MacroMesh, MeshError> {
-    parse_gmsh(&read_bytes(file)?, file)
-}
-
 /// The bytes of a mesh file, for [`parse_gmsh`] on all ranks.
 ///
 /// # Errors
@@ -52,27 +44,19 @@ pub fn read_bytes(file: &Path) -> Result<Vec<u8>, MeshError> {
     read_regular(file, MOST_BYTES).map_err(unreadable)
 }
 
-/// The mesh of a Gmsh file that has been read; `file` is its name in errors.
+/// The mesh of a Gmsh file that has been read: each physical surface becomes a body, physical curves become boundaries. `file` is its
+/// name in errors, `joined` has the name of the body of each surface that is a part of one.
 ///
 /// # Errors
-/// [`MeshError`] as of [`read_gmsh`].
-pub fn parse_gmsh(bytes: &[u8], file: &Path) -> Result<MacroMesh, MeshError> {
-    parse_joined(bytes, file, HashMap::new())
-}
-
-/// The mesh of a Gmsh file that has been read, with physical surfaces joined to bodies; `file` is its name in errors, `joined` has the
-/// name of the body of each surface that is a part of one.
-///
-/// # Errors
-/// [`MeshError`] as of [`read_gmsh`].
-pub fn parse_joined(bytes: &[u8], file: &Path, joined: HashMap<String, String>) -> Result<MacroMesh, MeshError> {
+/// [`MeshError`] with file and place, what was found, and the gmsh command that mends it.
+pub fn parse_gmsh(bytes: &[u8], file: &Path, joined: HashMap<String, String>) -> Result<MacroMesh, MeshError> {
     MacroMesh::build(RawMesh { joined, ..read(bytes, file)? }, file)
 }
 
 /// Names of the physical surfaces of a Gmsh file that has been read, in order.
 ///
 /// # Errors
-/// [`MeshError`] as of [`read_gmsh`].
+/// [`MeshError`] as of [`parse_gmsh`].
 pub fn surfaces(bytes: &[u8], file: &Path) -> Result<Vec<String>, MeshError> {
     let mesh = read(bytes, file)?;
     let (mut names, mut seen) = (Vec::new(), HashSet::new());
@@ -87,7 +71,7 @@ pub fn surfaces(bytes: &[u8], file: &Path) -> Result<Vec<String>, MeshError> {
 /// Physical surfaces that share nodes, together: each group is one body. In the order of the file.
 ///
 /// # Errors
-/// [`MeshError`] as of [`read_gmsh`].
+/// [`MeshError`] as of [`parse_gmsh`].
 pub fn touching_surfaces(bytes: &[u8], file: &Path) -> Result<Vec<Vec<String>>, MeshError> {
     let mut groups: Vec<Vec<String>> = Vec::new();
     let mut group_of: HashMap<String, usize> = HashMap::new();
@@ -155,9 +139,8 @@ fn read(bytes: &[u8], file: &Path) -> Result<RawMesh, MeshError> {
         seen.push(section.to_owned());
     }
     check_sections(&seen, version, file)?;
-    let mesh = elements.into_mesh();
-    check_groups(&mesh, file)?;
-    Ok(mesh)
+    check_groups(&elements.mesh, file)?;
+    Ok(elements.mesh)
 }
 
 /// Every section that is needed is there.

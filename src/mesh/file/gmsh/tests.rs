@@ -65,7 +65,7 @@ $EndElements
 ";
 
 fn read_square(text: &str) -> Result<MacroMesh, String> {
-    parse_gmsh(text.as_bytes(), Path::new("square.msh")).map_err(|error| error.to_string())
+    parse_gmsh(text.as_bytes(), Path::new("square.msh"), Default::default()).map_err(|error| error.to_string())
 }
 
 #[test]

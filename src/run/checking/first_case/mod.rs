@@ -8,7 +8,7 @@ mod guesses;
 mod named_curve;
 
 use crate::case::{Case, CaseError};
-use crate::mesh::{parse_joined, read_bytes, touching_surfaces};
+use crate::mesh::{parse_gmsh, read_bytes, touching_surfaces};
 use crate::run::checking::check::check;
 use crate::run::checking::proposals::{TableNames, measure, proposed_supports, quoted, refused_contacts};
 use crate::run::outcome::RunError;
@@ -35,7 +35,7 @@ pub fn first_case(mesh_file: &Path, named: &str) -> Result<FirstCase, RunError> 
     let names = body_names(&groups);
     let parts = groups.iter().zip(&names).flat_map(|(group, body)| group.iter().map(move |part| (part.clone(), body.clone())));
     let joined: HashMap<String, String> = parts.filter(|(part, body)| part != body).collect();
-    let mesh = parse_joined(&bytes, mesh_file, joined).map_err(|error| RunError::Input(error.to_string()))?;
+    let mesh = parse_gmsh(&bytes, mesh_file, joined).map_err(|error| RunError::Input(error.to_string()))?;
     let mut draft = Draft { guesses: Guesses::new(&mesh), groups: &groups, names: &names };
     let place = std::path::absolute(mesh_file).unwrap_or_else(|_| mesh_file.to_path_buf());
     let file = place.with_file_name("case.toml");
