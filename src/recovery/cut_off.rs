@@ -1,11 +1,11 @@
-//! Contact that goes on beyond the end of its boundary, where no body ends and nothing takes over.
+//! How bodies go on where contact ends: smoothly, so that it is cut off where nothing takes over, or round a corner.
 //!
 //! Of the roller of a chain that lies in its seat and beside it on the flank, with a contact in the seat alone, λ was 6 to 20 % off a
 //! few edges from the end of the seat.
 
 use super::zone_ends::{SAME, beyond, outwards};
 use crate::contact::{Law, Zone};
-use crate::discretisation::{Contact, ContactPressure};
+use crate::discretisation::{Contact, ContactPressure, Scene};
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
 use std::f64::consts::PI;
@@ -34,6 +34,13 @@ impl ContactPressure<'_> {
         };
         [0, 1].into_iter().filter(is_cut).map(height).fold(0.0, f64::max)
     }
+
+    /// Whether the corner of an elastic body presses at an end of a zone on an elastic one that goes on.
+    pub fn presses_with_a_corner(&self, scene: &Scene, zone: &Zone, end: usize) -> bool {
+        let has_corner = |side| turn_at_end(self.contact, &scene.mesh, side, end).is_some_and(|turn| turn < -SMOOTH);
+        let is_elastic = !self.contact.bodies.iter().any(|&body| scene.is_rigid(body));
+        is_elastic && self.ends_at_a_corner(&scene.mesh, zone, end) && (0..2).any(has_corner)
+    }
 }
 
 /// Whether both bodies go on smoothly beyond an end of Γ_C, though the boundary of one or both ends there by its name.
@@ -50,9 +57,14 @@ fn goes_on(contact: &Contact, mesh: &MacroMesh, end: usize) -> bool {
 
 /// Whether a body goes on smoothly where its boundary ends.
 fn is_smooth(contact: &Contact, mesh: &MacroMesh, side: usize, end: usize) -> bool {
+    turn_at_end(contact, mesh, side, end).is_some_and(|turn| (-OPENS..SMOOTH).contains(&turn))
+}
+
+/// By how much the boundary of a body turns towards the other one where its side ends (radians), negative where it turns away.
+fn turn_at_end(contact: &Contact, mesh: &MacroMesh, side: usize, end: usize) -> Option<f64> {
     let last = outwards(contact, mesh, side, end).into_iter().max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(vertex, _)| vertex);
     let around = mesh.boundary_vertices();
-    around.iter().any(|found| Some(found.vertex) == last && (-OPENS..SMOOTH).contains(&(found.angle - PI)))
+    around.iter().find(|found| Some(found.vertex) == last).map(|found| found.angle - PI)
 }
 
 /// Whether another contact of the same bodies begins at an end of Γ_C.

@@ -35,6 +35,10 @@ impl ContactPressure<'_> {
         }
         let nth = |i: usize| if end == 0 { zone.segments.start + i } else { zone.segments.end - 1 - i };
         let last = self.size(nth(0), if end == 0 { 0.05 } else { 0.95 });
+        let inner = if self.contact.multipliers.space == MultiplierSpace::P0 { nth(1) } else { nth(0) };
+        if last > GROWS * self.size(inner, 0.5) && self.peaks_at_end(zone) && self.presses_with_a_corner(scene, zone, end) {
+            return true;
+        }
         let grown = match (before, earlier) {
             (Some(before), Some(earlier)) => {
                 last > GROWS * before && before > earlier && last - before > GOES_ON * (before - earlier)
@@ -42,9 +46,7 @@ impl ContactPressure<'_> {
             (Some(before), None) => self.contact.multipliers.space != MultiplierSpace::P0 && last > GROWS * before,
             _ => true,
         };
-        let presses_in =
-            || self.ends_at_a_corner(&scene.mesh, zone, end) && !self.contact.bodies.iter().any(|&body| scene.is_rigid(body));
-        self.steepens([0, 1, 2].map(nth), GROWS) && (grown || self.peaks_at_end(zone) && presses_in())
+        grown && self.steepens([0, 1, 2].map(nth), GROWS)
     }
 
     /// Whether λ grows by more than a factor towards the first of three segments in a row, ever more quickly.
