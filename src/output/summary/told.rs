@@ -193,6 +193,18 @@ mod tests {
         Summary { contact: contacts.iter().enumerate().map(contact).collect(), ..Summary::default() }
     }
 
+    /// Between rings that touch, while another one is loaded, is nothing but rounding.
+    #[test]
+    fn a_force_is_none_that_is_rounding_beside_those_that_strain() {
+        let mut noise = summary(&[(None, 0.0), (None, -2.5e-13)]);
+        assert_eq!(noise.largest_force(), 2.5e-13, "nothing is strained");
+        (noise.energy.total, noise.displacement_max) = (Some(1.0), Some(0.02));
+        assert!((noise.largest_force() - 1e-3).abs() < 1e-15, "{}", noise.largest_force());
+        let mut pressed = summary(&[(None, 3.0)]);
+        (pressed.energy.total, pressed.displacement_max) = (Some(1.0), Some(0.02));
+        assert_eq!(pressed.largest_force(), 3.0);
+    }
+
     proptest! {
         #[test]
         fn of_many_contacts_the_worst_and_the_largest_are_told(

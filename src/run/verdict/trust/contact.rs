@@ -3,14 +3,14 @@
 use super::beyond::doubts_beyond;
 use super::remedies::{CUT, Mended};
 use super::told::{Objection, Verdict};
-use super::zones::{is_on_few_segments, is_proved, overlaps, unknown_of, zone_doubts};
+use super::zones::{fewest_edges, is_on_few_segments, is_proved, overlaps, unknown_of, zone_doubts};
 use crate::accuracy::share_of_nothing;
 use crate::case::Case;
 use crate::contact::{Pair, Quadrature};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
 use crate::run::verdict::limits::{
-    CORNERS, Doubt, ENERGY, FORCE, INF_SUP, OSCILLATION, Remedy, TRUSTED_FORCE, TRUSTED_FORCE_ON_FEW,
+    CORNERS, Doubt, EDGES, ENERGY, FORCE, INF_SUP, OSCILLATION, Remedy, TRUSTED_FORCE, TRUSTED_FORCE_ON_FEW,
 };
 use crate::run::verdict::no_result::{balance_doubts, is_strained};
 use crate::run::words::short;
@@ -53,6 +53,13 @@ pub fn verdict(summary: &Summary, contact: &ContactSummary, mended: Mended, conv
     let trust = if doubts.is_empty() { unknown.is_none().then_some(true) } else { Some(false) };
     let idle = idle.or_else(|| (contact.force == Some(0.0) && contact.zones.is_empty()).then(|| NOTHING_PRESSES.into()));
     Verdict { unknown, trust, trust_force, idle, ..Verdict::of(doubts, mended) }
+}
+
+/// Refinements that give each contact which carries something enough edges; one at least.
+pub fn refinements_wanted(summary: &Summary, case: &Case) -> usize {
+    let most = summary.largest_force();
+    let carrying = summary.contact.values().filter(|contact| idle_words(contact, case, most).is_none());
+    (EDGES.value / carrying.map(fewest_edges).fold(f64::INFINITY, f64::min)).log2().ceil().max(1.0) as usize
 }
 
 /// What a contact is called that carries next to nothing of the largest force, with all that overlaps beside it are worth.

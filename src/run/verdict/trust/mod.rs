@@ -13,7 +13,8 @@ mod told;
 mod zones;
 
 pub(super) use beyond::slip_doubt;
-pub(super) use remedies::{finer_mesh, refinements_wanted};
+pub(super) use contact::refinements_wanted;
+pub(super) use remedies::finer_mesh;
 pub(super) use zones::width;
 
 use crate::case::Case;

@@ -1,12 +1,9 @@
 //! What mends a pressure that is too inexact, in the terms of its case.
 
-use super::contact::idle_words;
-use super::zones::fewest_edges;
 use crate::case::Case;
 use crate::contact::{Pair, Quadrature, SegmentRule};
 use crate::element::Order;
-use crate::output::Summary;
-use crate::run::verdict::limits::{EDGES, P1_STIFF, Remedy};
+use crate::run::verdict::limits::{P1_STIFF, Remedy};
 
 /// What mends it where the mesh makes itself.
 const LESS_ERROR: &str = "ask for a smaller error, of pressure too, or allow more unknowns";
@@ -40,13 +37,6 @@ impl Mended<'_> {
             Remedy::Stability => stability(pair, case).into(),
         }
     }
-}
-
-/// Refinements that give each contact which carries something enough edges; one at least.
-pub fn refinements_wanted(summary: &Summary, case: &Case) -> usize {
-    let most = summary.largest_force();
-    let carrying = summary.contact.values().filter(|contact| idle_words(contact, case, most).is_none());
-    (EDGES.value / carrying.map(fewest_edges).fold(f64::INFINITY, f64::min)).log2().ceil().max(1.0) as usize
 }
 
 /// What makes a mesh finer that does not make itself: so many refinements more, or a goal. Steps and an accuracy exclude each other.
