@@ -36,8 +36,8 @@
 //! that have none but these around them, all free and of one rank, have no stored rows either, if they do not lie on a boundary, where
 //! contact adds to rows: products go through the triangles (`straight_triangles.rs`), and sweeps have rows of their own in single
 //! precision. A million triangles, 4.0 million unknowns, bytes for each unknown: 416 on one rank, 481 on two; with all rows stored 655 and
-//! 746. Medians of three in turn: 9.4 and 12.5 s, with all rows stored 11.6 and 18.4 s, for there are fewer pages to write, and couplings
-//! that are zero are left out.
+//! 746. Whole runs in turn, medians: 9.2 and 6.9 s, with all rows stored 11.3 and 8.2 s, for there are fewer pages to write, and
+//! couplings that are zero are left out.
 //!
 //! Graded and bent macro triangles store all of their rows, as do those of bodies of revolution, whose rings differ. Interpolation is
 //! treated alike: whole macro triangles from lattice to lattice (`interpolation/whole.rs`), of others a fine inner row from two
