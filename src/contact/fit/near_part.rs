@@ -154,3 +154,27 @@ fn ends(side: &SmoothSide) -> [(Point, Point); 2] {
     let [first, last] = [0.0, side.length()];
     [(curve.point(first), -curve.tangent(first)), (curve.point(last), curve.tangent(last))]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Curve;
+
+    /// A circle of 40 nodes, counted against the clock; the last is the first again.
+    fn circle() -> SmoothSide {
+        let at = |k: usize| Point::new((9.0 * k as f64).to_radians().cos(), (9.0 * k as f64).to_radians().sin());
+        let points: Vec<Point> = (0..=40).map(at).collect();
+        SmoothSide::through(Curve::Circle { centre: [0.0, 0.0], radius: 1.0 }, points.clone(), points, 1.0, 1, true)
+    }
+
+    #[test]
+    fn a_part_of_a_closed_side_goes_by_way_of_its_middle_however_long_it_is() {
+        let side = circle();
+        let places = |nodes: [usize; 3]| nodes.map(|node| side.points[node % 40]);
+        for (nodes, wanted) in [([5, 10, 15], [4, 16]), ([5, 20, 35], [4, 36]), ([35, 40, 45], [34, 46])] {
+            for places in [places(nodes), places([nodes[2], nodes[1], nodes[0]])] {
+                assert_eq!(NearPart::beside(&side, places).nodes, wanted, "{nodes:?}");
+            }
+        }
+    }
+}

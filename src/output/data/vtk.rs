@@ -17,7 +17,7 @@ use crate::output::markup::escape;
 use crate::recovery::TracePoint;
 
 const STRESS_COMPONENTS: [&str; 4] = ["XX", "YY", "XY", "ZZ"];
-/// Bytes that are encoded together.
+/// Bytes that are encoded together: they stay in the cache.
 const CHUNK: usize = 3 << 13;
 
 const VTK_LINE: u8 = 3;
