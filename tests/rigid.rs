@@ -232,6 +232,34 @@ contact.seam = {{ between = [\"top\", \"rigid.roller\"] }}\n"
     assert!((far / near - 1.0).abs() < 1e-5, "{far} and {near}");
 }
 
+/// A roller that may turn is held by force and curvature: its contact lies where the moment wants it, at M/F, if it turns about the
+/// place where it presses. About one that lies above by h it lies off by h/(R - h) of that, since normals are those of where it is
+/// drawn.
+#[test]
+fn a_roller_that_turns_is_known_where_it_turns_about_its_contact() {
+    let case = |about: f64, moment: f64| {
+        format!(
+            "{ROLLER}rigid.roller = {{ x = \"3*sin(t)\", y = \"3 - 3*cos(t)\", t = [-0.5, 0.5], about = [0.0, {about}], ux = 0.0, force = [0.0, -20.0], moment = {moment} }}
+contact.seam = {{ between = [\"top\", \"rigid.roller\"] }}\n"
+        )
+    };
+    let ended = |about, moment, ranks| in_folder(&roller_scene(false), &case(about, moment), |run| run.ranks(ranks).ended());
+    for ranks in ranks_in_turn(0) {
+        let near = ended(0.0, 0.4, ranks);
+        assert_eq!(near.code, Some(0), "{}", near.said());
+        assert!((near.number("/contact/seam/place/0") + 0.02).abs() < 2e-4, "{}", near.number("/contact/seam/place/0"));
+        assert!(near.number("/contact/seam/rotation_error") < 0.01, "{}", near.said());
+    }
+    let above = ended(0.5, 0.4, 2);
+    let [place, length] = ["place/0", "length"].map(|key| above.number(&format!("/contact/seam/{key}")));
+    let off = (place + 0.02).abs() / (0.5 * length);
+    let told = above.number("/contact/seam/rotation_error");
+    assert!((place / -0.02 - 3.0 / 2.5).abs() < 0.02 && told > off && told < 2.0 * off, "{place}: {off}, told {told}");
+    let centre = ended(1.5, 0.4, 1);
+    assert_eq!(centre.code, Some(3), "{}", centre.said());
+    assert!(centre.said().contains("lay the reference point (about)"), "{}", centre.said());
+}
+
 #[test]
 fn a_roller_that_nothing_holds_is_told() {
     let case = format!(

@@ -107,9 +107,11 @@ fn moved_too_far(judged: &Judged) -> Option<String> {
     let angles = judged.summary.rotation.iter().filter_map(|(body, angle)| Some((body, (*angle)?)));
     let farthest = turning.and_then(|_| angles.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())));
     let turns = farthest.map_or(String::new(), |(body, angle)| format!("body {body} turns most, by {} radians; ", short(angle)));
+    let is_tool = farthest.is_some_and(|(body, _)| body.starts_with("rigid."));
+    let about = if is_tool { ", and lay the reference point (about) of a tool that may turn where it presses" } else { "" };
     (off > FORCE_OFF).then(|| {
         format!(
-            "contact {name}: the bodies turn or slide so far that its force is wrong by about {} of itself in a theory of small motions; {turns}draw them nearer to where they come to lie",
+            "contact {name}: the bodies turn or slide so far that its force is wrong by about {} of itself in a theory of small motions; {turns}draw them nearer to where they come to lie{about}",
             short(off)
         )
     })
