@@ -6,6 +6,16 @@ use crate::element::{BadJacobian, by_order, edge_load, heat_load, triangle_load}
 use crate::geometry::Point;
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, Partition, lattice};
 
+/// Parts of a macro edge over which a formula is integrated at least, four points on each: a bump is seen from a fiftieth of the edge
+/// on.
+const PARTS: usize = 16;
+
+/// Parts of an edge at most, as for a formula that jumps.
+const MOST_PARTS: usize = 512;
+
+/// Change of the forces, relative to their sum, by which they stand: far less than the error of any mesh.
+const STANDS: f64 = 1e-7;
+
 /// What acts on bodies.
 pub struct Applied<'a> {
     /// The parts of the bodies in the order of the mesh, with their forces per area.
@@ -32,7 +42,8 @@ pub fn applied_forces(
     for load in *loads {
         for edge in mesh.edges_on(&load.on).filter(|&edge| partition.owner(mesh.beside(edge).0) == rank) {
             for small in BoundaryEdge::all_of(mesh, edge, numbering) {
-                let forces = edge_load(&small.points, |x, normal| load.kind.traction(x, normal) * mesh.plane.width(x));
+                let traction = |x: Point, normal| load.kind.traction(x, normal) * mesh.plane.width(x);
+                let forces = forces_on_edge(&small.points, numbering.level.intervals, load.kind.is_even(), traction);
                 small.nodes.iter().zip(forces).for_each(|(node, force)| add(node.number(mesh, numbering), force));
             }
         }
@@ -110,7 +121,36 @@ fn small_forces<const N: usize>(
     Ok(())
 }
 
+/// Nodal forces of a traction on an edge, as of [`edge_load`]; a macro edge has so many. Formulas, which are not even, are integrated
+/// over ever more parts of it until the forces stand: what acts on a short part of an edge has its resultant, too.
+/// `50*exp(-((x-0.33)/w)^2)` on edges of length 1 was 1.8 times that with the points of one part for w = .1, and 18 times for .01.
+pub fn forces_on_edge(points: &[Point], intervals: usize, is_even: bool, traction: impl Fn(Point, Point) -> Point) -> [Point; 3] {
+    let by = |parts| edge_load(points, parts, &traction);
+    if is_even {
+        return by(1);
+    }
+    let mut parts = PARTS.div_ceil(intervals);
+    let mut forces = by(parts);
+    while parts < MOST_PARTS {
+        parts *= 2;
+        let before = std::mem::replace(&mut forces, by(parts));
+        let apart = forces.iter().zip(before).map(|(now, before)| (now - before).norm()).fold(0.0, f64::max);
+        if apart <= STANDS * forces.iter().map(|force| force.norm()).sum::<f64>() {
+            break;
+        }
+    }
+    forces
+}
+
 impl LoadKind {
+    /// Whether it is the same everywhere.
+    pub fn is_even(&self) -> bool {
+        match self {
+            Self::Pressure(pressure) => pressure.as_constant().is_some(),
+            Self::Traction(both) => both.iter().all(|formula| formula.as_constant().is_some()),
+        }
+    }
+
     /// Traction at a point with the given outward normal (force per length).
     pub fn traction(&self, x: Point, normal: Point) -> Point {
         match self {

@@ -1,8 +1,9 @@
 //! Formulas of loads and forces where they are integrated: the first that has no finite value there, in words.
 
+use super::applied_force::forces_on_edge;
 use super::node_positions::NodePositions;
 use super::{BodyPart, Load, LoadKind};
-use crate::element::{BadJacobian, by_order, edge_load, triangle_load};
+use crate::element::{BadJacobian, by_order, triangle_load};
 use crate::geometry::{Formula, Point};
 use crate::mesh::{BoundaryEdge, Level, MacroMesh, Numbering, lattice};
 use std::cell::RefCell;
@@ -19,7 +20,7 @@ pub fn check_loads(mesh: &MacroMesh, numbering: &Numbering, loads: &[Load]) -> R
         };
         let looked_at = Looked::at(formulas);
         for small in mesh.edges_on(&load.on).flat_map(|edge| BoundaryEdge::all_of(mesh, edge, numbering)) {
-            edge_load(&small.points, |x, _| looked_at.point(x));
+            forces_on_edge(&small.points, numbering.level.intervals, load.kind.is_even(), |x, _| looked_at.point(x));
             looked_at.all_finite().map_err(|words| format!("load.{}.{key}: {words}", load.name))?;
         }
     }

@@ -51,6 +51,28 @@ pub fn fractions(
     }
 }
 
+/// Lets segments end at these parameters, ascending: the end that is nearest moves there, unless it is one of Γ_C, and those between
+/// move in proportion. Where an edge between two materials ends λ may jump, which no segment across can follow.
+pub fn end_segments_at(boundary: &mut ContactBoundary, places: &[f64]) {
+    let (arcs, count) = (boundary.arcs().to_vec(), boundary.segments());
+    let mut fixed = vec![(0, 0.0)];
+    for arc in places.iter().map(|&t| boundary.arc(t)) {
+        let away = |&k: &usize| (arcs[k] - arc).abs();
+        let nearest = (0..=count).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0);
+        if nearest < count && fixed.last().is_some_and(|&(before, _)| before < nearest) {
+            fixed.push((nearest, arc));
+        }
+    }
+    fixed.push((count, arcs[count]));
+    let between = |ends: &[(usize, f64)]| {
+        let [(first, from), (last, to)] = [ends[0], ends[1]];
+        let scale = (to - from) / (arcs[last] - arcs[first]);
+        arcs[first..last].iter().map(|arc| (from + scale * (arc - arcs[first])) / arcs[count]).collect::<Vec<_>>()
+    };
+    let fractions: Vec<f64> = fixed.windows(2).flat_map(between).chain([1.0]).collect();
+    boundary.cut(&fractions);
+}
+
 /// Ends of `count` segments as fractions of the length. From the middle to the first and last end they shorten
 /// geometrically by the two factors of `grading`.
 fn graded(count: usize, grading: [f64; 2]) -> Vec<f64> {

@@ -10,10 +10,12 @@ use std::f64::consts::TAU;
 /// Nodal forces of a traction on an element edge, `∫ N_a t ds` per unit thickness.
 ///
 /// `points` are the edge's 2 or 3 nodes, body on the left; `traction` takes a point and the unit outward normal there
-/// and returns force per length. Exact for tractions of degree 4 on straight edges.
-pub fn edge_load(points: &[Point], traction: impl Fn(Point, Point) -> Point) -> [Point; 3] {
+/// and returns force per length. Exact for tractions of degree 4 on each of so many equal parts of a straight edge.
+pub fn edge_load(points: &[Point], parts: usize, traction: impl Fn(Point, Point) -> Point) -> [Point; 3] {
     let mut forces = [Point::zeros(); 3];
-    for &(t, weight) in gauss_points(4) {
+    let share = 1.0 / parts as f64;
+    for (part, &(z, weight)) in (0..parts).flat_map(|part| gauss_points(4).iter().map(move |point| (part, point))) {
+        let (t, weight) = ((part as f64 + z) * share, weight * share);
         let (values, slopes) = (edge_shape(points.len(), t), edge_slope(points.len(), t));
         let (mut x, mut along) = (Point::zeros(), Point::zeros());
         for (a, point) in points.iter().enumerate() {
@@ -79,7 +81,7 @@ mod tests {
     fn pressure_on_a_closed_quarter_arc_acts_on_its_chord() {
         // Three nodes of a quadratic edge; uniform pressure on any curve adds up to that on the chord between its ends.
         let points = [Point::new(1.0, 0.0), Point::new(0.0, 1.0), Point::new(0.75, 0.75)];
-        let total: Point = edge_load(&points, |_, normal| -normal).iter().sum();
+        let total: Point = edge_load(&points, 1, |_, normal| -normal).iter().sum();
         assert!((total - Point::new(-1.0, -1.0)).norm() < 1e-14);
     }
 

@@ -16,6 +16,8 @@ pub struct ParametricCurve {
     y: Formula,
     range: [f64; 2],
     closes: bool,
+    /// Whether its formulas go on beyond the range, for its length on either side; if not, its tangents do.
+    goes_on: bool,
     /// Points between equal parts of the range.
     points: Vec<Point>,
 }
@@ -23,10 +25,13 @@ pub struct ParametricCurve {
 impl ParametricCurve {
     /// The curve of two formulas of one variable, with the first and the last value of that.
     pub fn new(x: Formula, y: Formula, range: [f64; 2]) -> Self {
-        let mut curve = Self { x, y, range, closes: false, points: Vec::new() };
+        let mut curve = Self { x, y, range, closes: false, goes_on: true, points: Vec::new() };
         let ([first, last], speed) = (range.map(|t| curve.at(t)), range.map(|t| curve.slope_at(t)));
         let near = |a: Point, b: Point, size: f64| (a - b).norm() <= MEETS_ITSELF * size;
         curve.closes = near(first, last, speed[0].norm() * (range[1] - range[0])) && near(speed[0], speed[1], speed[0].norm());
+        let beyond = (1..=PARTS).flat_map(|k| [curve.parameter(PARTS + k), range[0] + range[1] - curve.parameter(PARTS + k)]);
+        curve.goes_on =
+            curve.closes || beyond.into_iter().all(|t| [curve.at(t), curve.slope_at(t)].iter().flatten().all(|v| v.is_finite()));
         curve.points = (0..=PARTS).map(|k| curve.at(curve.parameter(k))).collect();
         curve
     }
@@ -46,14 +51,18 @@ impl ParametricCurve {
         self.closes.then_some(self.range[1] - self.range[0])
     }
 
-    /// Point at a parameter; beyond the range that of the formulas, or of the next turn of a closed curve.
+    /// Point at a parameter; beyond the range that of the formulas, or of the next turn of a closed curve, or, where the formulas have no
+    /// value, of the tangent at the end.
     pub fn point(&self, t: f64) -> Point {
-        self.at(self.within(t))
+        let t = self.within(t);
+        let end = if self.goes_on { t } else { t.clamp(self.range[0], self.range[1]) };
+        if end == t { self.at(t) } else { self.at(end) + (t - end) * self.slope_at(end) }
     }
 
     /// Derivative of the point by the parameter.
     pub fn derivative(&self, t: f64) -> Point {
-        self.slope_at(self.within(t))
+        let t = self.within(t);
+        self.slope_at(if self.goes_on { t } else { t.clamp(self.range[0], self.range[1]) })
     }
 
     /// Parameter of the nearest of the points that are kept.
@@ -100,6 +109,16 @@ mod tests {
         let half = curve("3*cos(t)", "sin(t)", [0.0, 0.5 * TAU]);
         assert_eq!(half.period(), None);
         assert!((half.point(4.0) - ellipse.point(4.0)).norm() < 1e-14, "continued by its formulas");
+    }
+
+    #[test]
+    fn a_curve_whose_formulas_end_goes_on_along_its_tangents() {
+        let crown = curve("t", "-0.004*log(1-(t/4)^2)", [-3.99, 3.99]);
+        let [end, slope] = [crown.point(3.99), crown.derivative(3.99)];
+        for beyond in [0.005, 1.0] {
+            assert!((crown.point(3.99 + beyond) - end - beyond * slope).norm() < 1e-12);
+            assert_eq!(crown.derivative(-3.99 - beyond), crown.derivative(-3.99));
+        }
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::corners::{Corners, corners};
 use super::deformation::{Deformation, deformations};
 use super::end_slip::{EndSlip, slip_at_ends};
 use super::motion_error::{MotionError, growth_by_gap, motion_errors};
-use super::overlaps::{missing_force, unresolved_force};
+use super::overlaps::{missing_beyond, missing_force, unresolved_force};
 use super::penetrations::penetrations;
 use super::probe::{Probed, Probing, probe};
 use super::stress::{NodalStress, nodal_stress};
@@ -95,6 +95,11 @@ impl<'a> Evaluation<'a> {
     /// largest overlap relative to the largest relative displacement.
     pub fn missing_force(&self, contact: usize, zones: &[[f64; 2]], points: &[TracePoint]) -> (Option<f64>, f64) {
         missing_force(&self.problem.contacts[contact], zones, points, self.balance.contacts[contact].force, self.moved)
+    }
+
+    /// Force that overlaps all beyond a contact boundary are worth, relative to the force found.
+    pub fn missing_beyond(&self, contact: usize) -> Option<f64> {
+        missing_beyond(&self.problem.contacts[contact], &self.penetrations[contact], self.balance.contacts[contact].force)
     }
 
     /// Force that penetration within single segments of a contact is worth (force per thickness).

@@ -13,18 +13,19 @@ pub fn penetrations(problem: &Discretisation, solution: &Solution, forces: &[f64
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let motion = BoundaryMotion::new(&problem.scene, space, &solution.displacement, session);
     let displacement = |node: EdgeNode| motion.at(node, mesh, space);
-    let mut values = vec![0.0; 4 * problem.contacts.len()];
+    let mut values = vec![0.0; 5 * problem.contacts.len()];
     for (at, contact) in problem.contacts.iter().enumerate().filter(|(at, _)| at % session.size() == session.rank()) {
         let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
-        let Penetration { depth, place, approach } = penetration(&sides, &contact.pair);
+        let boundary = &contact.boundary;
+        let is_within = |place| (boundary.ends()[0]..=boundary.ends()[1]).contains(&boundary.foot(place));
+        let Penetration { depth, place, beyond, approach } = penetration(&sides, &contact.pair, is_within);
         let softest = contact.moduli.iter().copied().fold(f64::INFINITY, f64::min);
         // The force of a body of revolution is that of the whole ring.
-        let boundary = &contact.boundary;
         let width = mesh.plane.width(boundary.point(boundary.parameter_at(0.5 * boundary.length())));
         let approach = approach.max(2.0 * forces[at].abs() / (width * softest));
-        values[4 * at..4 * at + 4].copy_from_slice(&[depth, place.x, place.y, approach]);
+        values[5 * at..5 * at + 5].copy_from_slice(&[depth, place.x, place.y, beyond, approach]);
     }
     session.sum(&mut values);
-    let found = |value: &[f64]| Penetration { depth: value[0], place: Point::new(value[1], value[2]), approach: value[3] };
-    values.chunks_exact(4).map(found).collect()
+    let found = |&[depth, x, y, beyond, approach]: &[f64; 5]| Penetration { depth, place: Point::new(x, y), beyond, approach };
+    values.as_chunks().0.iter().map(found).collect()
 }

@@ -2,6 +2,7 @@
 
 use super::evaluation::Evaluation;
 use super::stress::{NodalStress, nodal_stress};
+use super::zone_ends::SAME;
 use crate::body::{CHORDS, SingularPlace, Unbounded, singular_places};
 use crate::contact::Configuration;
 use crate::discretisation::{Contact, ContactPressure, Discretisation, Field, SystemError};
@@ -254,7 +255,12 @@ fn contact_ends(
     let is_deformed = contact.pair.configuration == Configuration::Deformed;
     let of_both = |(knot, why): (f64, Unbounded)| {
         let place = contact.boundary.point(knot);
-        contact.bodies.map(|body| SingularPlace { body, place, vertex: None, is_deformed, why: why.clone() })
+        let is_there = |vertex: &u32| (mesh.vertices[*vertex as usize] - place).norm() < SAME * contact.boundary.length();
+        [0, 1].map(|side| {
+            let (body, why) = (contact.bodies[side], why.clone());
+            let vertex = nearest_vertex(mesh, &contact.pair.between[side], place).filter(is_there);
+            SingularPlace { body, place, vertex, is_deformed, why }
+        })
     };
     found.flat_map(of_both).collect()
 }
@@ -263,13 +269,17 @@ fn contact_ends(
 fn one_turns((mesh, angles): (&MacroMesh, &FxHashMap<u32, f64>), contact: &Contact, knot: f64) -> bool {
     let here = contact.boundary.point(knot);
     let turns = contact.pair.between.each_ref().map(|name| {
-        let edges = mesh.boundary(name)?.edges.iter();
-        let vertices = edges.flat_map(|&edge| mesh.edges[edge as usize].vertices);
-        let away = |vertex: u32| (mesh.vertices[vertex as usize] - here).norm();
-        let nearest = vertices.min_by(|a, b| away(*a).total_cmp(&away(*b)))?;
+        let nearest = nearest_vertex(mesh, name, here)?;
         Some((180.0 - angles.get(&nearest)?.to_degrees()).abs() > CHORDS)
     });
     matches!(turns, [Some(one), Some(other)] if one != other)
+}
+
+/// The vertex of a boundary nearest to a place.
+fn nearest_vertex(mesh: &MacroMesh, boundary: &str, place: Point) -> Option<u32> {
+    let vertices = mesh.boundary(boundary)?.edges.iter().flat_map(|&edge| mesh.edges[edge as usize].vertices);
+    let away = |vertex: u32| (mesh.vertices[vertex as usize] - place).norm();
+    vertices.min_by(|a, b| away(*a).total_cmp(&away(*b)))
 }
 
 #[cfg(test)]
@@ -295,6 +305,7 @@ mod tests {
             let pressure = ContactPressure { contact: &contact, values: &values, active: &active };
             let found = contact_ends((&scene.mesh, &angles), &pressure, grows);
             assert!(found.iter().all(|found| !found.is_deformed) && found.len().is_multiple_of(2), "one for each body");
+            assert!(found.iter().any(|found| found.vertex.is_some()) || found.is_empty(), "the corner that presses is a vertex");
             found.iter().step_by(2).map(|found| (found.place.x, found.why.clone())).collect::<Vec<_>>()
         };
         let narrower = |x: Point| Point::new(0.3 * (1.0 - x.x), 0.0);

@@ -17,6 +17,8 @@ pub struct ZoneErrors {
     pub roughness: Option<Roughness>,
     /// Whether an edge between two materials ends in the middle of the zone.
     pub has_joint: bool,
+    /// Whether one of the bodies is a rigid tool, which has no stress: that of the other one stands for both.
+    pub by_one_body: bool,
 }
 
 /// One for each zone; `points` are those of [`super::Evaluation::traces`].
@@ -24,7 +26,8 @@ pub fn zone_errors(contact: &Contact, lambda: &[f64], zones: &[Zone], points: &[
     // The stress of a body that bears a load there says nothing of λ.
     let apart = |counts: &dyn Fn(f64) -> bool| {
         let found = apart(points, counts, |point, k| on_boundary(contact, point, k));
-        [0, 1].map(|k| if contact.loaded[k] { f64::NAN } else { found[k] })
+        let speaks = [0, 1].map(|k| if contact.rigid[k] { 1 - k } else { k });
+        speaks.map(|k| if contact.loaded[k] { f64::NAN } else { found[k] })
     };
     let one = |zone: &Zone| {
         let boundary = &contact.boundary;
@@ -46,6 +49,7 @@ pub fn zone_errors(contact: &Contact, lambda: &[f64], zones: &[Zone], points: &[
             stress_at_peak: apart(&is_near),
             roughness: roughness(&contact.boundary, &contact.multipliers, lambda, zone),
             has_joint: contact.joints.iter().any(|&joint| zone.has_in_its_middle(boundary.arc(joint))),
+            by_one_body: contact.rigid.contains(&true),
         }
     };
     zones.iter().map(one).collect()

@@ -2,7 +2,7 @@
 
 use crate::contact::{
     Configuration, ContactBoundary, Displacement, Distance, Facing, GapChoice, Jump, Known, MultiplierSpace, Multipliers, Pair,
-    Stabilise, Zone, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
+    SegmentRule, Stabilise, Zone, end_segments_at, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
 };
 use crate::discretisation::contacts::side_materials::SideMaterials;
 use crate::discretisation::error::SystemError;
@@ -62,6 +62,8 @@ pub struct Contact {
     pub limits: [f64; 2],
     /// Whether a load acts on the boundary of body 1, and of body 2: its stress is not that of the contact alone.
     pub loaded: [bool; 2],
+    /// Which of both bodies is a rigid tool.
+    pub rigid: [bool; 2],
 }
 
 impl Contact {
@@ -131,7 +133,11 @@ impl Contact {
         let young = materials.ruling();
         let placed = place(&scene.mesh, numbering, pair, young, known, displacement)
             .map_err(|words| format!("contact.{}: {words}", pair.name))?;
-        let (boundary, all) = (placed.boundary, placed.edges);
+        let (mut boundary, all) = (placed.boundary, placed.edges);
+        let joints = materials.joints(&boundary, &all, numbering.level);
+        if !joints.is_empty() && !matches!(pair.segments, SegmentRule::Fractions(_)) {
+            end_segments_at(&mut boundary, &joints);
+        }
         let own = |edge: &&BoundaryEdge| scene.partition.owner(edge.triangle as u32) == rank;
         let edges = all.each_ref().map(|edges| edges.iter().filter(own).cloned().collect());
         let segment_ratio = segment_ratio(&boundary, &all, young);
@@ -139,7 +145,6 @@ impl Contact {
         let safe_ratio = safe_ratio_of(scene.order, pair.space, &all);
         let multipliers = Multipliers::new(pair.space, &boundary);
         let moduli = materials.moduli(&boundary, &all);
-        let joints = materials.joints(&boundary, &all, numbering.level);
         let modulus_of = |i: usize| multipliers.mean_beside(i, &moduli);
         let multiplier_moduli: Vec<f64> = (0..multipliers.count()).map(modulus_of).collect();
         let (multipliers, jumps) = if is_stabilised(pair, segment_ratio < short(pair.space) * safe_ratio) {
@@ -157,6 +162,7 @@ impl Contact {
             known: Known { meeting: placed.meeting, ends, segments, coarser: known.coarser, touch: known.touch },
             found: None,
             limits: placed.limits,
+            rigid: bodies.map(|body| scene.is_rigid(body)),
             loaded: sides.each_ref().map(|edges| is_loaded(scene, edges)),
             boundary,
             multipliers,

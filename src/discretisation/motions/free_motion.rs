@@ -1,6 +1,6 @@
 //! A rigid motion that nothing holds: what drives it, what would stop it, and what would hold it.
 
-use crate::body::{Applied, MOTIONS, RigidNodes, UNIT_MOTIONS, applied_forces, rigid_displacement};
+use crate::body::{Applied, MOTIONS, RigidNodes, RigidSet, UNIT_MOTIONS, applied_forces, rigid_displacement};
 use crate::contact::{Condition, Extent, Mechanism, Touch, find_mechanism};
 use crate::discretisation::scene::Scene;
 use crate::element::Order;
@@ -40,8 +40,9 @@ impl FreeMotion<'_> {
     /// A support that would hold the motion: rather such a one that leaves no other motion free. The mean of a body that nothing
     /// drives and no support holds; else one point, on a named boundary without contact if there is one.
     pub fn remedy(&self, touches: &[Touch]) -> String {
-        if let Some(tool) = self.scene.tool(self.body()) {
-            return format!("prescribe ux, uy or angle of {}", tool.key);
+        // A plate takes all of the body with it, and a mean would hold the same motion twice.
+        if let Some(set) = self.scene.rigid.iter().find(|set| self.moves(set) && set.free().next().is_some()) {
+            return format!("prescribe ux, uy or angle of {}", set.key);
         }
         if let Some(words) = self.mean_hold(touches) {
             return words;
@@ -76,7 +77,12 @@ impl FreeMotion<'_> {
             of(Some(condition.piece), &condition.sees[0]) + of(condition.against, &condition.sees[1]) > most
         };
         let stops = |touch: &Touch| touch.iter().all(|own| own.iter().any(closes));
-        if work.abs() > NOTHING { touches.iter().position(stops) } else { None }
+        if self.is_driven() { touches.iter().position(stops) } else { None }
+    }
+
+    /// Whether loads do work in the motion.
+    pub fn is_driven(&self) -> bool {
+        self.work().abs() > NOTHING
     }
 
     /// The hold of a mean motion, in words; nothing if the body has other supports, or is of several pieces, or if loads drive it.
@@ -88,7 +94,7 @@ impl FreeMotion<'_> {
         let count = before.map_or(0, |hold| hold.held.len());
         let others = self.supports.iter().filter(|condition| condition.piece == piece).count() > count;
         let is_whole = mesh.pieces.iter().filter(|own| own.body == self.body()).count() == 1;
-        if others || !is_whole || self.work().abs() > NOTHING {
+        if others || !is_whole || self.is_driven() {
             return None;
         }
         let Extent { middle, radius } = self.extents[piece];
@@ -140,18 +146,21 @@ impl FreeMotion<'_> {
                 places.get(&node).into_iter().for_each(|&x| add(force, moved(x)));
             });
         }
-        for set in rigid {
-            let is_own = match &set.nodes {
-                RigidNodes::Body(name) => *name == mesh.bodies[self.body()],
-                RigidNodes::Boundaries(_) => set.edges(mesh).iter().any(|&edge| mesh.piece_beside(edge) == self.mechanism.piece),
-            };
-            if is_own {
-                let [x, y, moment] = set.applied;
-                add(Point::new(x, y), moved(set.about));
-                add(Point::new(moment / extent.radius, 0.0), Point::new(self.mechanism.moves.1 * extent.radius, 0.0));
-            }
+        for set in rigid.iter().filter(|set| self.moves(set)) {
+            let [x, y, moment] = set.applied;
+            add(Point::new(x, y), moved(set.about));
+            add(Point::new(moment / extent.radius, 0.0), Point::new(self.mechanism.moves.1 * extent.radius, 0.0));
         }
         if size > 0.0 { work / size } else { 0.0 }
+    }
+
+    /// Whether a rigid set is the body that moves, or a plate on the piece.
+    fn moves(&self, set: &RigidSet) -> bool {
+        let mesh = &self.scene.mesh;
+        match &set.nodes {
+            RigidNodes::Body(name) => *name == mesh.bodies[self.body()],
+            RigidNodes::Boundaries(_) => set.edges(mesh).iter().any(|&edge| mesh.piece_beside(edge) == self.mechanism.piece),
+        }
     }
 
     /// Vertices on the named boundaries of a piece, with the axis in which they move most; some of each boundary.

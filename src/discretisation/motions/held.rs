@@ -17,6 +17,7 @@ use crate::geometry::Point;
 use crate::mesh::{Level, MacroMesh, Numbering, SmoothNormals, each_once};
 use crate::petsc::Session;
 use std::collections::{HashMap, HashSet};
+use std::ops::Range;
 
 /// Cosine of the angle (8 degrees) between a chord's normal and that of its arc at most.
 const ALIKE: f64 = 0.99;
@@ -24,6 +25,16 @@ const ALIKE: f64 = 0.99;
 /// Words for a body that neither supports nor the active multipliers hold; nothing if all are held. **Collective**
 pub fn not_held(problem: &Discretisation, active: &[bool], session: &Session) -> Option<String> {
     Restraints::of(problem, session).not_held(active)
+}
+
+/// Words for a body that nothing drives, and that neither supports nor those contacts hold of which a multiplier is active; nothing if
+/// there is none. **Collective**
+pub fn adrift(problem: &Discretisation, active: &[bool], session: &Session) -> Option<String> {
+    let is_closed = |contact: &Contact| vec![active[contact.range()].contains(&true); contact.multipliers.count()];
+    let closed: Vec<bool> = problem.contacts.iter().flat_map(is_closed).collect();
+    let whole = Restraints::of(problem, session);
+    let mechanism = whole.mechanism(&closed)?;
+    if whole.free(|free| free.is_driven(), &mechanism) { None } else { whole.not_held(&closed) }
 }
 
 /// The same where all contact is closed, of contacts whose edges are all on this rank.
@@ -56,15 +67,19 @@ pub fn needed_contacts(problem: &Discretisation, active: &[bool], session: &Sess
 }
 
 /// Of the open multipliers those that hold every body if they close: for one motion after the other that nothing holds, the one with
-/// the largest `force` on a contact of the body that moves. **Collective**
+/// the largest `force` on the contact that the loads drive the body against, or on any of its contacts where there is none. In a box
+/// with clearance the wall that a body is driven off may be as near as the one that stops it. **Collective**
 pub fn few_that_hold(problem: &Discretisation, active: &[bool], force: impl Fn(usize) -> f64, session: &Session) -> Vec<usize> {
     let whole = Restraints::of(problem, session);
     let (mut closed, mut few) = (active.to_vec(), Vec::new());
     while let Some(mechanism) = whole.mechanism(&closed) {
+        let stops = whole.free(|free| free.stopped_by(&whole.touches(free.extents, &vec![true; closed.len()])), &mechanism);
         let body = problem.scene.mesh.pieces[mechanism.piece].body;
         let own = problem.contacts.iter().filter(|contact| contact.bodies.contains(&body));
-        let open = own.flat_map(Contact::range).filter(|&i| !closed[i]);
-        let Some(next) = open.max_by(|&a, &b| force(a).total_cmp(&force(b))) else { break };
+        let open = |range: Range<usize>| range.filter(|&i| !closed[i]).max_by(|&a, &b| force(a).total_cmp(&force(b)));
+        let stopping = stops.and_then(|at| open(problem.contacts[at].range()));
+        let any = || own.filter_map(|contact| open(contact.range())).max_by(|&a, &b| force(a).total_cmp(&force(b)));
+        let Some(next) = stopping.or_else(any) else { break };
         closed[next] = true;
         few.push(next);
     }
@@ -108,25 +123,35 @@ impl<'a> Restraints<'a> {
         find_mechanism(&extents, &support_conditions(self.scene, &extents), &self.touches(&extents, active))
     }
 
+    /// What is told of a motion that nothing holds.
+    fn free<T>(&self, tell: impl FnOnce(&FreeMotion) -> T, mechanism: &Mechanism) -> T {
+        let extents = self.scene.extents();
+        let supports = support_conditions(self.scene, &extents);
+        tell(&FreeMotion { scene: self.scene, mechanism, extents: &extents, supports: &supports })
+    }
+
     /// **Collective**
     fn not_held(&self, active: &[bool]) -> Option<String> {
-        let extents = self.scene.extents();
-        let (supports, touches) = (support_conditions(self.scene, &extents), self.touches(&extents, active));
-        let mechanism = find_mechanism(&extents, &supports, &touches)?;
-        let free = FreeMotion { scene: self.scene, mechanism: &mechanism, extents: &extents, supports: &supports };
+        let mechanism = self.mechanism(active)?;
+        Some(self.free(|free| self.words(free, active), &mechanism))
+    }
+
+    /// Words for a motion that is free with what is `active`. **Collective**
+    fn words(&self, free: &FreeMotion, active: &[bool]) -> String {
+        let (mechanism, touches) = (free.mechanism, self.touches(free.extents, active));
         let name = self.scene.mesh.name_of_piece(mechanism.piece);
-        if let Some(contact) = free.stopped_by(&self.touches(&extents, &vec![true; active.len()])) {
-            return Some(format!(
+        if let Some(contact) = free.stopped_by(&self.touches(free.extents, &vec![true; active.len()])) {
+            return format!(
                 "{name} can {} with what was found to press, but its loads drive it against contact {}, which would hold it: no set of what presses was found; refine the mesh where contact is, or draw the bodies where they touch",
                 mechanism.motion, self.contacts[contact].pair.name
-            ));
+            );
         }
         let by = if active.contains(&true) {
             "supports and contact do not hold it"
         } else {
             "contact is open everywhere and supports do not hold it"
         };
-        Some(format!("{name} can {}: {by}; {}", mechanism.motion, free.remedy(&touches)))
+        format!("{name} can {}: {by}; {}", mechanism.motion, free.remedy(&touches))
     }
 
     /// What the closed multipliers of a contact that are this rank's resist, by the normals of body 1 and by those of body 2.

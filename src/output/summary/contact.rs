@@ -64,6 +64,8 @@ pub struct ContactSummary {
     pub missing: Option<f64>,
     /// The same as a force (force per thickness), on undeformed bodies.
     pub missing_force: Option<f64>,
+    /// Force that overlaps all beyond the contact boundary are worth, relative to `force`.
+    pub missing_beyond: Option<f64>,
     /// Deepest place of one body in the other, by their whole sides (length).
     pub depth: Option<f64>,
     /// Where that is.

@@ -1,7 +1,7 @@
 //! The loop over active sets.
 
 use crate::contact::{ActiveSet, GapChoice, SetChange};
-use crate::discretisation::{Contact, Solution, SystemError, bilateral, few_that_hold, not_held};
+use crate::discretisation::{Contact, Solution, SystemError, adrift, bilateral, few_that_hold, not_held};
 use crate::procedure::ending::{Ending, Failure, Standing};
 use crate::procedure::sets::change::relative_change;
 use crate::procedure::sets::contact_state::ContactState;
@@ -197,6 +197,13 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         let failed = matches!(solve.ending, LinearEnding::Failed { .. });
         let next_set = if failed { None } else { Some(self.next_set(&state)) };
         self.record(&solve, &state, next_set.as_ref());
+        // Bodies that nothing drives and nothing holds have forces of rounding alone, by which sets change for ever.
+        let is_first = self.position.passes == 0 && self.passes.len() == 1;
+        if let Some(words) =
+            is_first.then(|| adrift(self.system.problem(), self.system.active(), self.system.session())).flatten()
+        {
+            return Ok(Next::End(Ending::NotConverged(Failure::NotHeld(words))));
+        }
         Ok(match next_set {
             None => Next::End(self.after_failure(solve.ending, &state)),
             Some(NextSet { change: SetChange::Settled, lost }) => self.after_settled(solve.ending, lost, &state),

@@ -52,6 +52,7 @@ pub fn contact(solved: &Solved, found: &Evaluation, at: usize, points: &[TracePo
         corner_error: corners.as_ref().map(|corners| corners.error),
         missing: missing.and_then(|(share, _)| share),
         missing_force: missing.map(|(_, force)| force),
+        missing_beyond: found.missing_beyond(at),
         depth: Some(penetration.depth),
         deepest: (penetration.depth > 0.0).then(|| penetration.place.into()),
         approach: Some(penetration.approach),

@@ -82,6 +82,12 @@ pub static OVERLAP: Limit = most((0.1, two, MoreSegments, "the bodies overlap wh
     "the bodies overlap where no segment presses"));
 pub const OVERLAP_ALONE: f64 = 1e-5;
 
+/// `missing_beyond`: force, relative to that found, that overlaps all beyond the contact boundary may be worth: what presses there is
+/// lost, a third to a half of that.
+pub static OVERLAP_BEYOND: Limit = most((0.01, two_digits, Words("take ends = \"fixed\""),
+    "the bodies overlap beyond the contact boundary",
+    "the bodies overlap beyond the contact boundary by what is worth {value} of its force, at most {bound} wanted"));
+
 /// `unresolved_force`: share of the force that penetration within single segments may be worth: more is contact narrower than
 /// they are.
 pub static WITHIN_SEGMENTS: Limit = most((0.1, two, MoreSegments, "the bodies penetrate each other within segments",
