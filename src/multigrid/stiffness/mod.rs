@@ -4,7 +4,7 @@
 //! # Rows that are not stored
 //!
 //! Inside a straight macro triangle that is refined evenly all small triangles are translations of one another and of its reflection,
-//! so the couplings of its nodes repeat: 7 blocks of 2 × 2 for P1, for P2 two alternating rows of 19 and 9 and of 9 and 9. The rows of such
+//! so the couplings of its nodes repeat: 7 blocks of 2 × 2 for P1, for P2 two alternating rows of 13 and 7 and of 7 and 7. The rows of such
 //! nodes are never assembled:
 //!
 //! ```text
