@@ -54,7 +54,8 @@ pub fn applied_forces(
             add(numbering.vertex(vertex), load.force());
         }
     }
-    for &triangle in partition.triangles_of(rank) {
+    let all_over = parts.iter().any(|part| part.is_loaded());
+    for &triangle in partition.triangles_of(rank).iter().filter(|_| all_over) {
         let part = parts[mesh.triangles[triangle as usize].part as usize];
         heat_forces(mesh, triangle as usize, numbering, part, &mut add)?;
         if part.force.iter().all(|formula| formula.as_constant() == Some(0.0)) {

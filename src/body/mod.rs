@@ -97,6 +97,11 @@ impl BodyPart {
         is_one && a.plane == b.plane && self.heat == other.heat
     }
 
+    /// Whether forces act all over it: a force per area, or heat.
+    pub fn is_loaded(&self) -> bool {
+        self.heat.is_some() || self.force.iter().any(|formula| formula.as_constant() != Some(0.0))
+    }
+
     /// The formulas that are integrated over it.
     pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
         self.force.iter().chain(self.heat.as_ref().map(|heat| &heat.temperature))

@@ -36,7 +36,7 @@ pub struct Discretisation {
 /// What does not depend on contact, and is found once on each mesh.
 #[derive(Default)]
 pub struct WithoutContact {
-    /// Nodal forces of loads and body forces.
+    /// Nodal forces of loads and body forces, where there are any of these.
     pub(super) applied: OnceCell<Field<2>>,
     held: OnceCell<Rc<HeldBodies>>,
 }

@@ -8,7 +8,8 @@ use super::raw_mesh::{RawMesh, RawTriangle};
 use super::spot::NamedPoint;
 use crate::element::Plane;
 use crate::geometry::{Coordinates, Curve, Point, Quote, Rounded, cross};
-use std::collections::{HashMap, HashSet};
+use std::cell::OnceCell;
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -102,8 +103,8 @@ pub struct MacroMesh {
     pub file: PathBuf,
     /// Positions of the vertices that triangles use.
     pub vertices: Vec<Point>,
-    /// Fraction κ at which refinement puts the next node from each vertex; none where it is even.
-    pub ratios: Vec<Option<f64>>,
+    /// Fraction κ at which refinement puts the next node from a vertex, where it is not even.
+    pub ratios: BTreeMap<u32, f64>,
     /// Triangles, each with its body.
     pub triangles: Vec<MacroTriangle>,
     /// Edges, each once.
@@ -126,6 +127,8 @@ pub struct MacroMesh {
     pub has_midsides: bool,
     /// What the plane of the mesh stands for.
     pub plane: Plane,
+    /// Boxes around the pieces, once somebody has asked for them.
+    pub bounds: OnceCell<Vec<[Point; 2]>>,
 }
 
 impl MacroMesh {
@@ -135,7 +138,6 @@ impl MacroMesh {
         raw.put_in_order();
         let mut mesh = Self {
             file: file.to_path_buf(),
-            ratios: vec![None; raw.vertices.len()],
             vertices: raw.vertices,
             loose: raw.loose,
             triangles: Vec::with_capacity(raw.triangles.len()),
@@ -366,6 +368,10 @@ impl MacroMesh {
 
     /// Smallest box around all vertices of each piece: lower left and upper right corner.
     pub fn bounds(&self) -> Vec<[Point; 2]> {
+        self.bounds.get_or_init(|| self.found_bounds()).clone()
+    }
+
+    fn found_bounds(&self) -> Vec<[Point; 2]> {
         let mut bounds = vec![[Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)]; self.pieces.len()];
         for triangle in &self.triangles {
             let [low, high] = &mut bounds[triangle.piece as usize];

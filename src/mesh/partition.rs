@@ -71,8 +71,11 @@ fn face(mesh: &MacroMesh, a: u32, b: u32) -> bool {
     overlap > 1e-9 * length && apart <= length.max((b1 - b0).norm())
 }
 
+/// No place.
+const NOWHERE: u32 = u32::MAX;
+
 /// Owner of a macro entity and what comes before it in its owner's numbers.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Home {
     pub rank: u32,
     pub vertices_before: u32,
@@ -84,9 +87,16 @@ pub(super) struct Home {
 /// its entities in the order of its first visit along a space-filling curve through its macro triangles.
 #[derive(Debug)]
 pub struct Partition {
-    pub(super) vertices: Vec<Home>,
-    pub(super) edges: Vec<Home>,
-    pub(super) triangles: Vec<Home>,
+    /// Four times the place of the macro triangle by which each vertex is visited first, and how many of it were before.
+    vertices: Vec<u32>,
+    /// The same of each edge.
+    edges: Vec<u32>,
+    /// Place of each macro triangle, counted through all ranks, where each has one more for its end.
+    triangles: Vec<u32>,
+    /// Vertices and edges that its rank has visited before each place.
+    before: Vec<[u32; 2]>,
+    /// First place of each rank, and the end.
+    firsts: Vec<u32>,
     /// Vertices, edges and triangles of each rank.
     pub(super) counts: Vec<[u32; 3]>,
     /// Macro triangles of each rank, in its order.
@@ -107,9 +117,11 @@ impl Partition {
         let keys = morton_keys(mesh);
         orders.iter_mut().for_each(|order| order.sort_by_key(|&triangle| (keys[triangle as usize], triangle)));
         let mut partition = Self {
-            vertices: vec![Home { rank: u32::MAX, ..Home::default() }; mesh.vertices.len()],
-            edges: vec![Home { rank: u32::MAX, ..Home::default() }; mesh.edges.len()],
-            triangles: vec![Home::default(); mesh.triangles.len()],
+            vertices: vec![NOWHERE; mesh.vertices.len()],
+            edges: vec![NOWHERE; mesh.edges.len()],
+            triangles: vec![NOWHERE; mesh.triangles.len()],
+            before: Vec::with_capacity(mesh.triangles.len() + size),
+            firsts: vec![0],
             counts: vec![[0; 3]; size],
             orders: Vec::new(),
             borders: vec![Vec::new(); size],
@@ -119,52 +131,74 @@ impl Partition {
             for &triangle in order {
                 partition.visit(mesh, rank, triangle as usize);
             }
+            let [vertices, edges, _] = partition.counts[rank];
+            partition.before.push([vertices, edges]);
+            partition.firsts.push(partition.before.len() as u32);
         }
         partition.orders = orders;
         partition
     }
 
     fn visit(&mut self, mesh: &MacroMesh, rank: usize, triangle: usize) {
-        let counts = &mut self.counts[rank];
-        let here = |counts: &[u32; 3]| Home {
-            rank: rank as u32,
-            vertices_before: counts[0],
-            edges_before: counts[1],
-            triangles_before: counts[2],
-        };
-        for &vertex in &mesh.triangles[triangle].vertices {
-            if self.vertices[vertex as usize].rank == u32::MAX {
-                self.vertices[vertex as usize] = here(counts);
-                counts[0] += 1;
-            }
-        }
-        for &edge in &mesh.triangles[triangle].edges {
-            if self.edges[edge as usize].rank == u32::MAX {
-                self.edges[edge as usize] = here(counts);
-                counts[1] += 1;
-            }
-        }
-        self.triangles[triangle] = here(counts);
-        counts[2] += 1;
-        let number = triangle as u32;
+        let (place, number) = (self.before.len() as u32, triangle as u32);
+        let [vertices, edges, triangles] = &mut self.counts[rank];
+        self.before.push([*vertices, *edges]);
+        self.triangles[triangle] = place;
+        *triangles += 1;
         let triangle = &mesh.triangles[triangle];
-        let homes = triangle.vertices.iter().map(|&vertex| &self.vertices[vertex as usize]);
-        for home in homes.chain(triangle.edges.iter().map(|&edge| &self.edges[edge as usize])) {
-            let other = home.rank as usize;
-            if other != rank {
-                [&mut self.borders[rank], &mut self.guests[other]]
-                    .into_iter()
-                    .filter(|of| of.last() != Some(&number))
-                    .for_each(|of| of.push(number));
+        let own = [(&mut self.vertices, triangle.vertices, vertices), (&mut self.edges, triangle.edges, edges)];
+        for (visits, entities, count) in own {
+            let before = *count;
+            for entity in entities {
+                let visit = &mut visits[entity as usize];
+                if *visit == NOWHERE {
+                    *visit = 4 * place + (*count - before);
+                    *count += 1;
+                } else if *visit / 4 < self.firsts[rank] {
+                    let other = self.firsts.partition_point(|first| *first <= *visit / 4) - 1;
+                    [&mut self.borders[rank], &mut self.guests[other]]
+                        .into_iter()
+                        .filter(|of| of.last() != Some(&number))
+                        .for_each(|of| of.push(number));
+                }
             }
         }
+    }
+
+    /// Where a place is: its rank, and what comes before it.
+    fn at(&self, place: u32) -> Home {
+        let rank = self.firsts.partition_point(|first| *first <= place) - 1;
+        let [vertices_before, edges_before] = self.before[place as usize];
+        Home { rank: rank as u32, vertices_before, edges_before, triangles_before: place - self.firsts[rank] }
+    }
+
+    /// Home of a macro vertex.
+    pub(super) fn vertex(&self, vertex: u32) -> Home {
+        let visit = self.vertices[vertex as usize];
+        let home = self.at(visit / 4);
+        Home { vertices_before: home.vertices_before + visit % 4, ..home }
+    }
+
+    /// Home of a macro edge: behind the vertices of its triangle.
+    pub(super) fn edge(&self, edge: u32) -> Home {
+        let visit = self.edges[edge as usize];
+        let home = self.at(visit / 4);
+        let [vertices_before, _] = self.before[visit as usize / 4 + 1];
+        Home { vertices_before, edges_before: home.edges_before + visit % 4, ..home }
+    }
+
+    /// Home of a macro triangle: behind its vertices and edges.
+    pub(super) fn triangle(&self, triangle: usize) -> Home {
+        let place = self.triangles[triangle];
+        let [vertices_before, edges_before] = self.before[place as usize + 1];
+        Home { vertices_before, edges_before, ..self.at(place) }
     }
 
     /// The partition in which each `group` ranks with consecutive numbers have given all that they own to the middle one.
     /// Partitioners give neighbouring parts of the mesh to ranks with neighbouring numbers.
     pub fn brought_together(&self, mesh: &MacroMesh, group: usize) -> Self {
-        let middle = |home: &Home| middle_of_group(home.rank as usize, group, self.size()) as i32;
-        Self::new(mesh, &self.triangles.iter().map(middle).collect::<Vec<_>>(), self.size())
+        let middle = |triangle: u32| middle_of_group(self.owner(triangle), group, self.size()) as i32;
+        Self::new(mesh, &(0..self.triangles.len() as u32).map(middle).collect::<Vec<_>>(), self.size())
     }
 
     /// Number of ranks.
@@ -189,7 +223,8 @@ impl Partition {
 
     /// Owner of a macro triangle.
     pub fn owner(&self, triangle: u32) -> usize {
-        self.triangles[triangle as usize].rank as usize
+        let place = self.triangles[triangle as usize];
+        self.firsts.partition_point(|first| *first <= place) - 1
     }
 }
 
@@ -346,13 +381,14 @@ mod tests {
         let ranks: Vec<i32> = (0..mesh.triangles.len() as i32).map(|k| k / 7 % 3).collect();
         let partition = Partition::new(&mesh, &ranks, 3);
         let mut counts = [[0; 3]; 3];
-        for (triangle, home) in mesh.triangles.iter().zip(&partition.triangles) {
-            assert!(triangle.vertices.iter().all(|&v| partition.vertices[v as usize].rank <= home.rank), "the first that has it");
-            assert!(triangle.edges.iter().all(|&e| partition.edges[e as usize].rank <= home.rank));
+        for (at, triangle) in mesh.triangles.iter().enumerate() {
+            let rank = partition.triangle(at).rank;
+            assert!(triangle.vertices.iter().all(|&v| partition.vertex(v).rank <= rank), "the first that has it");
+            assert!(triangle.edges.iter().all(|&e| partition.edge(e).rank <= rank));
+            counts[rank as usize][2] += 1;
         }
-        for (kind, homes) in [&partition.vertices, &partition.edges, &partition.triangles].into_iter().enumerate() {
-            homes.iter().for_each(|home| counts[home.rank as usize][kind] += 1);
-        }
+        (0..mesh.vertices.len() as u32).for_each(|vertex| counts[partition.vertex(vertex).rank as usize][0] += 1);
+        (0..mesh.edges.len() as u32).for_each(|edge| counts[partition.edge(edge).rank as usize][1] += 1);
         assert_eq!(partition.counts, counts);
         for (triangle, &rank) in ranks.iter().enumerate() {
             assert_eq!(partition.owner(triangle as u32), rank as usize);

@@ -36,7 +36,7 @@ type TriangleIntegrals = [f64; 4];
 /// Integrals over a body: of 1, of the rotation, of the work on its growth, of the place.
 type BodyIntegrals = [f64; 5];
 
-/// Strain, rotation and growth of each body, and the rotation of each macro triangle of the mesh, the same on all ranks. Strain and
+/// Strain, rotation and growth of each body, and the rotation of each macro triangle beside contacts, the same on all ranks. Strain and
 /// rotation of a macro triangle are means over it, and where triangles are hardly refined over it and its neighbours. So a corner where
 /// the strain is singular counts by what its surroundings see, on fine meshes as on coarse ones. **Collective**
 ///
@@ -62,20 +62,61 @@ pub fn deformations(
     });
     agreed(session, added)?;
     session.sum(totals.as_flattened_mut());
-    session.sum(sums.as_flattened_mut());
     let mut found = whole_bodies(mesh, &totals);
+    let is_own = |triangle: u32| problem.scene.partition.owner(triangle) == session.rank();
+    let beside = |edge: &u32| mesh.edges[*edge as usize].triangles.into_iter().flatten();
+    let at_others =
+        |&&triangle: &&u32| mesh.triangles[triangle as usize].edges.iter().flat_map(beside).any(|other| !is_own(other));
+    let borders: Vec<u32> = own.iter().filter(|triangle| session.size() > 1 && at_others(triangle)).copied().collect();
     for _ in problem.scene.refine..MANY {
-        sums = with_neighbours(mesh, &sums);
+        tell(&mut sums, &borders, session);
+        sums = with_neighbours(mesh, own, &sums);
     }
-    for (triangle, sum) in mesh.triangles.iter().zip(&sums) {
-        let of_body = &mut found[triangle.body as usize];
-        if sum[0] / sum[1] > of_body.strain {
-            (of_body.strain, of_body.place) = (sum[0] / sum[1], centroid(mesh, triangle));
-        }
-        let rotation = sum[2] / sum[1];
-        of_body.turned = if rotation.abs() > of_body.turned.abs() { rotation } else { of_body.turned };
-    }
+    add_largest(problem, &sums, &mut found, session);
+    let sides = problem.contacts.iter().flat_map(|contact| mesh.edges_on(&contact.pair.between));
+    let pressed = sides.map(|edge| mesh.beside(edge).0).filter(|&triangle| is_own(triangle));
+    tell(&mut sums, &pressed.collect::<Vec<_>>(), session);
     Ok((found, sums.iter().map(|sum| sum[2] / sum[1]).collect()))
+}
+
+/// Tells every rank the sums of these macro triangles of this one. **Collective**
+fn tell(sums: &mut [[f64; 3]], triangles: &[u32], session: &Session) {
+    let places = session.gather_all(triangles);
+    let known: Vec<[f64; 3]> = triangles.iter().map(|&triangle| sums[triangle as usize]).collect();
+    let known = session.gather_all(known.as_flattened());
+    places.iter().zip(known.as_chunks().0).for_each(|(&triangle, sum)| sums[triangle as usize] = *sum);
+}
+
+/// How large something is, the macro triangle of which, and itself.
+type Largest = [f64; 3];
+
+/// The larger one; of two alike that of the first macro triangle.
+fn larger(a: Largest, b: Largest) -> Largest {
+    if b[0] > a[0] || b[0] == a[0] && b[1] < a[1] { b } else { a }
+}
+
+/// Adds the largest strain and the largest rotation of its macro triangles to each body, and how far it reaches. **Collective**
+fn add_largest(problem: &Discretisation, sums: &[[f64; 3]], found: &mut [Deformation], session: &Session) {
+    let mesh = &problem.scene.mesh;
+    let mut all = vec![[[0.0, -1.0, 0.0]; 3]; found.len()];
+    for &at in problem.scene.partition.triangles_of(session.rank()) {
+        let (triangle, [strain, area, rotation]) = (&mesh.triangles[at as usize], sums[at as usize]);
+        let (strain, rotation, body) = (strain / area, rotation / area, triangle.body as usize);
+        let away = |vertex: u32| (mesh.vertices[vertex as usize] - found[body].middle).norm();
+        let farthest = triangle.vertices.map(away).into_iter().fold(0.0, f64::max);
+        let values = [(strain, strain), (rotation.abs(), rotation), (farthest, farthest)];
+        all[body].iter_mut().zip(values).for_each(|(most, (size, value))| *most = larger(*most, [size, f64::from(at), value]));
+    }
+    let of_ranks = session.gather_all(all.as_flattened().as_flattened());
+    for (at, of_body) in of_ranks.as_chunks::<3>().0.as_chunks::<3>().0.iter().enumerate() {
+        let known = &mut all[at % found.len()];
+        (0..3).for_each(|k| known[k] = larger(known[k], of_body[k]));
+    }
+    for (of_body, [strain, rotation, farthest]) in found.iter_mut().zip(all) {
+        let place = (strain[1] >= 0.0).then(|| centroid(mesh, &mesh.triangles[strain[1] as usize]));
+        (of_body.strain, of_body.place) = (strain[2], place.unwrap_or(of_body.place));
+        (of_body.turned, of_body.radius) = (rotation[2], farthest[2]);
+    }
 }
 
 /// Adds the integrals over a macro triangle with this centroid to those of its body.
@@ -84,7 +125,7 @@ fn add_to_body(sum: &mut BodyIntegrals, [_, area, rotation, growth]: &TriangleIn
     sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
 }
 
-/// What is known of each body as a whole; its strain and its largest rotation are left at zero.
+/// What is known of each body as a whole; what [`add_largest`] adds is left at zero.
 fn whole_bodies(mesh: &MacroMesh, totals: &[BodyIntegrals]) -> Vec<Deformation> {
     let whole = |&[area, rotation, growth, x, y]: &BodyIntegrals| {
         let middle = Point::new(x, y) / area;
@@ -99,11 +140,6 @@ fn whole_bodies(mesh: &MacroMesh, totals: &[BodyIntegrals]) -> Vec<Deformation> 
             (of_body.rotation, of_body.growth) = (0.0, 0.0);
         }
     }
-    for triangle in &mesh.triangles {
-        let Deformation { middle, radius, .. } = &mut found[triangle.body as usize];
-        let farthest = triangle.vertices.map(|vertex| (mesh.vertices[vertex as usize] - *middle).norm());
-        *radius = farthest.into_iter().fold(*radius, f64::max);
-    }
     found
 }
 
@@ -111,14 +147,16 @@ fn centroid(mesh: &MacroMesh, triangle: &MacroTriangle) -> Point {
     triangle.vertices.map(|vertex| mesh.vertices[vertex as usize]).into_iter().sum::<Point>() / 3.0
 }
 
-/// Each sum with those of the macro triangles beside it.
-fn with_neighbours(mesh: &MacroMesh, sums: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    let mut wider = sums.to_vec();
-    for edge in &mesh.edges {
-        let [Some(a), Some(b)] = edge.triangles.map(|triangle| triangle.map(|triangle| triangle as usize)) else { continue };
-        for k in 0..sums[a].len() {
-            wider[a][k] += sums[b][k];
-            wider[b][k] += sums[a][k];
+/// Each sum of these macro triangles with those of the ones beside it.
+fn with_neighbours(mesh: &MacroMesh, own: &[u32], sums: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let mut wider = vec![[0.0; 3]; sums.len()];
+    for &triangle in own {
+        let sum = &mut wider[triangle as usize];
+        *sum = sums[triangle as usize];
+        for edge in mesh.triangles[triangle as usize].edges {
+            for other in mesh.edges[edge as usize].triangles.into_iter().flatten().filter(|&other| other != triangle) {
+                (0..3).for_each(|k| sum[k] += sums[other as usize][k]);
+            }
         }
     }
     wider

@@ -197,7 +197,8 @@ fn contact_forces_of_nodes(problem: &Discretisation, solution: &Solution) -> Has
 fn body_of_nodes(problem: &Discretisation, rank: usize) -> Vec<usize> {
     let (scene, space) = (&problem.scene, problem.finest());
     let mut body = vec![0; space.own.len()];
-    let triangles = scene.partition.triangles_of(rank).iter().map(|&triangle| triangle as usize);
+    let own = if scene.bodies.len() > 1 { scene.partition.triangles_of(rank) } else { &[] };
+    let triangles = own.iter().map(|&triangle| triangle as usize);
     for (triangle, _, node) in space.numbering.nodes_of(&scene.mesh, triangles).filter(|(.., node)| space.own.contains(node)) {
         body[node - space.own.start] = scene.mesh.triangles[triangle].body as usize;
     }

@@ -86,7 +86,10 @@ impl Evaluation<'_> {
     pub fn stress_peaks(&self, grows: &[bool], joints: &[Vec<Point>]) -> Result<Vec<StressPeak>, SystemError> {
         let (problem, mesh, stress) = (self.problem, &self.problem.scene.mesh, self.stress()?);
         let (level, singular) = (problem.finest().numbering.level, all_singular_places(self, grows, joints));
-        let (concentrated, touching) = (self.concentrated_stresses(&singular, stress), touching(mesh, &singular));
+        let corners = corners_at(mesh, &singular);
+        let concentrated = self.concentrated_stresses(singular.len(), &corners, stress);
+        let part_of = |triangle: u32| mesh.triangles[triangle as usize].part;
+        let touching: FxHashSet<(usize, u32)> = corners.iter().map(|&(at, triangle, _)| (at, part_of(triangle))).collect();
         // Macro triangles where the stress is as large as before them, or nearly: among them are those of the largest one.
         let mut largest = vec![0.0_f64; mesh.parts.len()];
         let mut candidates: Vec<u32> = Vec::new();
@@ -136,40 +139,37 @@ impl Evaluation<'_> {
         Ok(firsts.into_iter().enumerate().map(peak).collect())
     }
 
-    /// The von Mises stress at each singular place that is a vertex, if it falls away from there; zero elsewhere. **Collective**
-    fn concentrated_stresses(&self, places: &[SingularPlace], stress: &NodalStress) -> Vec<f64> {
+    /// The von Mises stress at each of some places that have these corners, if it falls away from there; zero elsewhere. **Collective**
+    fn concentrated_stresses(&self, places: usize, corners: &[PlacedCorner], stress: &NodalStress) -> Vec<f64> {
         let (mesh, numbering) = (&self.problem.scene.mesh, &self.problem.finest().numbering);
-        let at_vertex = |(at, place): (usize, &SingularPlace)| Some((place.vertex?, at));
-        let places_at: FxHashMap<u32, usize> = places.iter().enumerate().filter_map(at_vertex).collect();
         let n = numbering.level.intervals;
         let away = (2 * numbering.level.order.degree()).min(n);
         // The stress there, and the largest one two edges away.
-        let mut found = vec![[0.0_f64; 2]; places.len()];
-        for &triangle in self.problem.scene.partition.triangles_of(self.session.rank()) {
-            let own = &mesh.triangles[triangle as usize];
-            let numbers = numbering.triangle(mesh, triangle as usize);
-            for (corner, vertex) in own.vertices.iter().enumerate() {
-                let Some(&at) = places_at.get(vertex) else { continue };
-                let node = |(i, j)| von_mises(stress.at(own.part as usize, numbers.node(i, j)));
-                let there = node(lattice::side_node(n, corner, 0));
-                let [ahead, back] =
-                    [(corner, away), ((corner + 2) % 3, n - away)].map(|(side, at)| lattice::side_node(n, side, at));
-                found[at] = [found[at][0].max(there), found[at][1].max(node(ahead)).max(node(back))];
-            }
+        let mut found = vec![[0.0_f64; 2]; places];
+        let is_own = |triangle: u32| self.problem.scene.partition.owner(triangle) == self.session.rank();
+        for &(at, triangle, corner) in corners.iter().filter(|(_, triangle, _)| is_own(*triangle)) {
+            let (part, numbers) = (mesh.triangles[triangle as usize].part, numbering.triangle(mesh, triangle as usize));
+            let node = |(i, j)| von_mises(stress.at(part as usize, numbers.node(i, j)));
+            let there = node(lattice::side_node(n, corner, 0));
+            let [ahead, back] = [(corner, away), ((corner + 2) % 3, n - away)].map(|(side, at)| lattice::side_node(n, side, at));
+            found[at] = [found[at][0].max(there), found[at][1].max(node(ahead)).max(node(back))];
         }
         self.session.max(found.as_flattened_mut());
         found.into_iter().map(|[there, beside]| if there > CONCENTRATED * beside { there } else { 0.0 }).collect()
     }
 }
 
-/// Which places touch which parts: those that are vertices of them.
-fn touching(mesh: &MacroMesh, places: &[SingularPlace]) -> FxHashSet<(usize, u32)> {
+/// A place that is a vertex, and a macro triangle with a corner there: which one.
+type PlacedCorner = (usize, u32, usize);
+
+/// All corners at places that are vertices.
+fn corners_at(mesh: &MacroMesh, places: &[SingularPlace]) -> Vec<PlacedCorner> {
     let mut at_vertex: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
     let vertices = places.iter().enumerate().filter_map(|(at, place)| Some((place.vertex?, at)));
     vertices.for_each(|(vertex, at)| at_vertex.entry(vertex).or_default().push(at));
-    let corners = mesh.triangles.iter().flat_map(|triangle| triangle.vertices.map(|vertex| (vertex, triangle.part)));
-    let own = corners.filter_map(|(vertex, part)| Some((at_vertex.get(&vertex)?, part)));
-    own.flat_map(|(own, part)| own.iter().map(move |at| (*at, part))).collect()
+    let corners = (0..).zip(&mesh.triangles).flat_map(|(triangle, own)| (0..).zip(own.vertices).map(move |of| (triangle, of)));
+    let own = corners.filter_map(|(triangle, (corner, vertex))| Some((at_vertex.get(&vertex)?, triangle, corner)));
+    own.flat_map(|(own, triangle, corner)| own.iter().map(move |&at| (at, triangle, corner))).collect()
 }
 
 /// The longest edge of a triangle at a node of each part (length); `triangles` have all that lie there on this rank. **Collective**

@@ -42,14 +42,14 @@ const BY_UNKNOWN_IF_FLAT: f64 = 270.0;
 const BY_UNKNOWN_IF_RIGID: f64 = 56.0;
 
 /// Bytes for each macro triangle on every rank: the mesh and its partition.
-const BY_MACRO_TRIANGLE: f64 = 216.0;
+const BY_MACRO_TRIANGLE: f64 = 180.0;
 
 /// Bytes for each macro triangle of a rank where auxiliary levels stand below them: their functions at the vertices, with lists both
 /// ways, and their rows. These and the figure above were counted on 1.13 million triangles by the places that ask for memory.
 const BY_AUXILIARY: f64 = 260.0;
 
 /// Bytes for each macro triangle in the partition of levels that are brought together on fewer ranks: one for each size of group.
-const BY_PARTITION: f64 = 52.0;
+const BY_PARTITION: f64 = 24.0;
 
 /// A block.
 const BY_BLOCK: f64 = 32.0;

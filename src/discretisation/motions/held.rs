@@ -315,7 +315,7 @@ pub fn supported(scene: &Scene, numbering: &Numbering) -> Vec<Held> {
         return Vec::new();
     };
     let mut piece = vec![0; scene.mesh.vertices.len()];
-    for triangle in &scene.mesh.triangles {
+    for triangle in scene.mesh.triangles.iter().filter(|_| scene.mesh.pieces.len() > 1) {
         triangle.vertices.iter().for_each(|&vertex| piece[vertex as usize] = triangle.piece as usize);
     }
     let free = scene.rigid.iter().filter(|set| set.free().next().is_some());

@@ -87,6 +87,7 @@ impl MacroMesh {
             let there = self.kept_on_axis(here, circle.point(t));
             if (here - there).norm() > 1e-14 * (here.norm() + bow.chord()) {
                 self.vertices[vertex as usize] = there;
+                self.bounds.take();
             }
         }
         range

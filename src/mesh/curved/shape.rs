@@ -58,6 +58,7 @@ impl MacroMesh {
             }
             if distance > 1e-14 * (here.norm() + length) {
                 self.vertices[vertex as usize] = there;
+                self.bounds.take();
             }
         }
         self.edges[edge as usize].shape = (!curve.is_line()).then(|| Box::new(CurvePiece { curve: curve.clone(), range }));

@@ -25,7 +25,7 @@ impl EdgeNode {
     /// twice where that level has it.
     pub fn parents(self, mesh: &MacroMesh, level: Level) -> [(Self, f64); 2] {
         let half = self.position / 2;
-        let [a, b] = mesh.edges[self.edge as usize].vertices.map(|vertex| mesh.ratios[vertex as usize]);
+        let [a, b] = mesh.edges[self.edge as usize].vertices.map(|vertex| mesh.ratios.get(&vertex).copied());
         let ratio = |position: u32| match position {
             0 => a,
             p if 2 * p as usize == level.intervals => b,

@@ -28,19 +28,19 @@ impl MacroMesh {
         if distance(&nearest) > SAME * size {
             return Err(nearest);
         }
-        let named = self.vertices.iter().zip(&mut self.ratios).filter(|(x, _)| distance(x) <= SAME * size);
-        named.for_each(|(_, known)| *known = Some(ratio));
+        let named = self.vertices.iter().zip(0..).filter(|(x, _)| distance(x) <= SAME * size);
+        self.ratios.extend(named.map(|(_, vertex)| (vertex, ratio)));
         Ok(())
     }
 
     /// Whether a corner of the macro triangle is graded.
     pub fn is_graded(&self, triangle: usize) -> bool {
-        self.triangles[triangle].vertices.iter().any(|&vertex| self.ratios[vertex as usize].is_some())
+        !self.ratios.is_empty() && self.triangles[triangle].vertices.iter().any(|vertex| self.ratios.contains_key(vertex))
     }
 
     /// The macro triangle as the root of the hierarchy of a level.
     fn whole(&self, triangle: usize, level: Level) -> HierarchyTriangle {
-        let ratios = self.triangles[triangle].vertices.map(|vertex| self.ratios[vertex as usize]);
+        let ratios = self.triangles[triangle].vertices.map(|vertex| self.ratios.get(&vertex).copied());
         HierarchyTriangle::whole(ratios, level.refinements())
     }
 
@@ -63,7 +63,7 @@ impl MacroMesh {
     /// Fraction of a macro edge at which its node `position` lies at a level.
     pub fn edge_fraction(&self, edge: u32, level: Level, position: u32) -> f64 {
         let at = f64::from(position) / level.intervals as f64;
-        let [a, b] = self.edges[edge as usize].vertices.map(|vertex| self.ratios[vertex as usize]);
+        let [a, b] = self.edges[edge as usize].vertices.map(|vertex| self.ratios.get(&vertex).copied());
         if a.is_none() && b.is_none() {
             return at;
         }
@@ -78,12 +78,13 @@ impl MacroMesh {
         let mut lengths = [f64::INFINITY, 0.0];
         let mut add = |length: f64| lengths = [lengths[0].min(length), lengths[1].max(length)];
         for (edge, ends) in (0..self.edges.len() as u32).zip(self.edges.iter().map(|edge| edge.vertices)) {
-            let count = if ends.iter().any(|&vertex| self.ratios[vertex as usize].is_some()) { n / step } else { 1 };
+            let count = if ends.iter().any(|vertex| self.ratios.contains_key(vertex)) { n / step } else { 1 };
             let place = |k: usize| self.edge_fraction(edge, level, (k * step) as u32);
             (0..count).for_each(|k| add((place(k + 1) - place(k)) * self.edge_length(edge)));
         }
-        for (triangle, corner) in (0..self.triangles.len()).flat_map(|triangle| (0..3).map(move |corner| (triangle, corner))) {
-            if self.ratios[self.triangles[triangle].vertices[corner] as usize].is_some() {
+        let graded = (0..self.triangles.len()).filter(|&triangle| self.is_graded(triangle));
+        for (triangle, corner) in graded.flat_map(|triangle| (0..3).map(move |corner| (triangle, corner))) {
+            if self.ratios.contains_key(&self.triangles[triangle].vertices[corner]) {
                 let nodes = [lattice::side_node(n, corner, step), lattice::side_node(n, (corner + 2) % 3, n - step)];
                 let [a, b] = nodes.map(|node| self.node_position(triangle, level, node));
                 add((b - a).norm());
@@ -115,7 +116,7 @@ impl MacroMesh {
     /// κ of lattice node `(i, j)` at `n` intervals, if it is a graded vertex.
     fn ratio(&self, triangle: usize, n: usize, (i, j): (usize, usize)) -> Option<f64> {
         match lattice::place(n, i, j) {
-            Place::Corner(corner) => self.ratios[self.triangles[triangle].vertices[corner] as usize],
+            Place::Corner(corner) => self.ratios.get(&self.triangles[triangle].vertices[corner]).copied(),
             _ => None,
         }
     }
@@ -297,7 +298,7 @@ mod tests {
     fn coinciding_vertices_are_graded_together_and_others_are_not_found() {
         let mut mesh = two_blocks();
         mesh.grade(Point::new(2.0, 1.0), 0.3).expect("a vertex of each block");
-        assert_eq!(mesh.ratios.iter().filter(|ratio| **ratio == Some(0.3)).count(), 2);
+        assert_eq!(mesh.ratios.values().filter(|ratio| **ratio == 0.3).count(), 2);
         assert_eq!(mesh.grade(Point::new(1.0, 1.1), 0.3), Err(Point::new(0.9, 1.0)));
     }
 }

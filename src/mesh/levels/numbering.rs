@@ -95,13 +95,13 @@ impl Numbering {
 
     /// Ranks that own a macro edge and its ends.
     pub fn ranks_of(&self, mesh: &MacroMesh, edge: u32) -> [usize; 3] {
-        let [first, last] = mesh.edges[edge as usize].vertices.map(|vertex| self.partition.vertices[vertex as usize]);
-        [first, last, self.partition.edges[edge as usize]].map(|home| home.rank as usize)
+        let [first, last] = mesh.edges[edge as usize].vertices.map(|vertex| self.partition.vertex(vertex));
+        [first, last, self.partition.edge(edge)].map(|home| home.rank as usize)
     }
 
     /// Number of a macro vertex.
     pub fn vertex(&self, vertex: u32) -> usize {
-        self.start(self.partition.vertices[vertex as usize])
+        self.start(self.partition.vertex(vertex))
     }
 
     /// Number of the node `position` intervals from the first vertex of a macro edge; both ends included.
@@ -109,20 +109,20 @@ impl Numbering {
         match position {
             0 => self.vertex(mesh.edges[edge as usize].vertices[0]),
             p if p == self.level.intervals => self.vertex(mesh.edges[edge as usize].vertices[1]),
-            p => self.start(self.partition.edges[edge as usize]) + p - 1,
+            p => self.start(self.partition.edge(edge)) + p - 1,
         }
     }
 
     /// Numbers of one macro triangle's nodes. What has no nodes is not looked up: on large macro meshes that is the time it takes.
     pub fn triangle(&self, mesh: &MacroMesh, triangle: usize) -> TriangleNumbers {
         let (macro_triangle, n) = (&mesh.triangles[triangle], self.level.intervals);
-        let side = |edge: u32| if n > 1 { self.start(self.partition.edges[edge as usize]) } else { 0 };
+        let side = |edge: u32| if n > 1 { self.start(self.partition.edge(edge)) } else { 0 };
         TriangleNumbers {
             n,
             corners: macro_triangle.vertices.map(|vertex| self.vertex(vertex)),
             sides: macro_triangle.edges.map(side),
             forward: macro_triangle.forward,
-            inside: if n > 2 { self.start(self.partition.triangles[triangle]) } else { 0 },
+            inside: if n > 2 { self.start(self.partition.triangle(triangle)) } else { 0 },
         }
     }
 }

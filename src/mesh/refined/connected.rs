@@ -7,12 +7,10 @@ use crate::mesh::macro_mesh::{BodyPiece, Boundary, MacroMesh, MacroTriangle};
 impl MacroMesh {
     /// The bodies of this mesh without its triangles, to be given others: [`MacroMesh::add_part`], then [`MacroMesh::divide_edges`].
     pub(super) fn without_triangles(&self, vertices: Vec<Point>) -> Self {
-        let mut ratios = self.ratios.clone();
-        ratios.resize(vertices.len(), None);
         Self {
             file: self.file.clone(),
             vertices,
-            ratios,
+            ratios: self.ratios.clone(),
             bodies: self.bodies.clone(),
             parts: self.parts.clone(),
             pieces: self.pieces.iter().map(|piece| BodyPiece { first: u32::MAX, ..piece.clone() }).collect(),

@@ -170,7 +170,7 @@ impl MacroMesh {
                 ));
             }
         }
-        self.ratios.resize(self.vertices.len(), None);
+        self.bounds.take();
         let (body, piece, start) = (self.bodies.len() as u32, self.pieces.len() as u32, self.triangles.len() as u32);
         let part = self.parts.len() as u32;
         self.bodies.push(name.into());

@@ -20,7 +20,7 @@ impl MacroMesh {
         let curves = |all: &[Boundary]| all.iter().map(curve).filter(|boundary| !boundary.edges.is_empty()).collect();
         let mut mesh = Self {
             vertices: vertices.of(&self.vertices),
-            ratios: vertices.of(&self.ratios),
+            ratios: self.ratios.iter().filter_map(|(&vertex, &ratio)| Some((vertices.at(vertex)?, ratio))).collect(),
             triangles: triangles.of(&self.triangles),
             edges: edges.of(&self.edges),
             boundaries: curves(&self.boundaries),
@@ -28,11 +28,11 @@ impl MacroMesh {
             bodies: self.bodies.iter().filter(|name| !is_tool(name)).cloned().collect(),
             parts: self.parts.iter().filter(|part| !is_tool(&part.name)).cloned().collect(),
             pieces: self.pieces.iter().filter(|piece| !is_tool(&self.bodies[piece.body])).cloned().collect(),
-            points: Vec::new(),
             loose: self.loose.clone(),
             has_midsides: self.has_midsides,
             plane: self.plane,
             file: self.file.clone(),
+            ..Self::default()
         };
         let kept = "a triangle that is kept keeps its corners and sides";
         for triangle in &mut mesh.triangles {

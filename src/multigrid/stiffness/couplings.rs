@@ -1,6 +1,6 @@
 //! The couplings of the inner nodes of an even macro triangle: they repeat, and are not stored.
 //!
-//! A P1 node has six neighbours, all of the same kind; a P2 row alternates between two kinds of nodes, with 18 or 8. After the
+//! A P1 node has six neighbours, all of the same kind; a P2 row alternates between two kinds of nodes, with 12 or 6. After the
 //! stencils of hierarchical hybrid grids (Bergen, Hülsemann 2004).
 
 use crate::body::MacroStiffness;
@@ -44,10 +44,12 @@ impl Couplings {
     }
 }
 
-/// Couplings of lattice node `(i, j)` as steps, that with itself first.
+/// Couplings of lattice node `(i, j)` as steps, that with itself first. A corner and the midside across from it are not coupled: the
+/// stiffness of a straight triangle is zero there, but for rounding. All other steps lead along sides.
 fn couplings(stiffness: &MacroStiffness, i: usize, j: usize) -> Vec<(Step, Block)> {
     let step = |(k, l): (usize, usize)| (k as i32 - i as i32, l as i32 - j as i32);
-    let mut all: Vec<(Step, Block)> = stiffness.row(i, j).map(|(node, block)| (step(node), *block)).collect();
+    let along_sides = |&((di, dj), _): &(Step, Block)| di == 0 || dj == 0 || di + dj == 0;
+    let mut all: Vec<(Step, Block)> = stiffness.row(i, j).map(|(node, block)| (step(node), *block)).filter(along_sides).collect();
     all.sort_by_key(|&(step, _)| step != (0, 0));
     all
 }

@@ -4,7 +4,7 @@
 //! # Rows that are not stored
 //!
 //! Inside a straight macro triangle that is refined evenly all small triangles are translations of one another and of its reflection,
-//! so the couplings of its nodes repeat: 7 blocks of 2 × 2 for P1, for P2 two alternating rows of 19 and 9 and of 9 and 9. The rows of such
+//! so the couplings of its nodes repeat: 7 blocks of 2 × 2 for P1, for P2 two alternating rows of 13 and 7 and of 7 and 7. The rows of such
 //! nodes are never assembled:
 //!
 //! ```text
@@ -35,9 +35,9 @@
 //! A mesh that is not cut up, as a fine one of Gmsh's, has no such lattices. Of its straight P2 triangles two gradients are kept, and nodes
 //! that have none but these around them, all free and of one rank, have no stored rows either, if they do not lie on a boundary, where
 //! contact adds to rows: products go through the triangles (`straight_triangles.rs`), and sweeps have rows of their own in single
-//! precision. A million triangles, 4.0 million unknowns, bytes for each unknown: 416 on one rank, 481 on two; with all rows stored 655 and
-//! 746. Whole runs in turn, medians: 9.2 and 6.9 s, with all rows stored 11.3 and 8.2 s, for there are fewer pages to write, and
-//! couplings that are zero are left out.
+//! precision. A million triangles, 4.0 million unknowns, bytes for each unknown: 393 on one rank, 445 on two. With all rows stored 655
+//! instead of 416 and 746 instead of 481, before vectors and tables of the mesh took less. Whole runs in turn, medians: 9.2 and 6.9 s, with
+//! all rows stored 11.3 and 8.2 s, for there are fewer pages to write, and couplings that are zero are left out.
 //!
 //! Graded and bent macro triangles store all of their rows, as do those of bodies of revolution, whose rings differ. Interpolation is
 //! treated alike: whole macro triangles from lattice to lattice (`interpolation/whole.rs`), of others a fine inner row from two

@@ -78,19 +78,21 @@ impl Part {
             one = lanes.multiply_add(lanes.load(blocks[0]), a, one);
             other = lanes.multiply_add(lanes.load(blocks[1]), b, other);
         };
-        let last = || match (columns.1, blocks.1) {
+        let last = match (columns.1, blocks.1) {
             ([column], [block]) => lanes.multiply(lanes.load(*block), lanes.load([x[*column as usize]; 2])),
             _ => zero,
         };
+        // Loops, not `for_each`: what that calls would not have the registers.
         let twos = columns.0.iter().zip(blocks.0);
-        let last = if BACKWARD {
-            let last = last();
-            twos.rev().for_each(&mut add_two);
-            last
+        if BACKWARD {
+            for two in twos.rev() {
+                add_two(two);
+            }
         } else {
-            twos.for_each(&mut add_two);
-            last()
-        };
+            for two in twos {
+                add_two(two);
+            }
+        }
         let one = lanes.add(one, last);
         let [[a, b], [c, d]] = lanes.store(lanes.add(one, other));
         [sum[0] - (a + b), sum[1] - (c + d)]

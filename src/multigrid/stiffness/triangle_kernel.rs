@@ -30,8 +30,8 @@ pub fn triangle_kernel<L: Lanes>(lanes: L, couplings: &[&[Couplings]]) -> Box<dy
         1 => Box::new(OfRows { lanes, even: Alike::<L, 2>::new(lanes, &row(0)), odd: None::<Alike<L, 2>> }),
         _ => Box::new(OfRows {
             lanes,
-            even: Alternate::<L, 3, 7, true>::new(lanes, &row(0)),
-            odd: Some(Alternate::<L, 3, 3, false>::new(lanes, &row(1))),
+            even: Alternate::<L, 2, 4, true>::new(lanes, &row(0)),
+            odd: Some(Alternate::<L, 2, 2, false>::new(lanes, &row(1))),
         }),
     }
 }

@@ -115,7 +115,7 @@ pub struct ContactLoop<'s, 'a> {
     is_carried: bool,
     /// How often contact was kept that a body needs.
     kept: usize,
-    /// Displacements of the pass before.
+    /// Displacements of the pass before, none for zeros: of most first passes.
     before: Vec<f64>,
     passes: Vec<Pass>,
 }
@@ -152,7 +152,8 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
             true if is_carried => last.max((LOOK * system.residual()?.relative()).min(WIDEST)),
             true => last.max(share * LOOSE),
         };
-        let (before, wanted) = (system.with_free_displacement(<[f64]>::to_vec), tolerance.residual());
+        let known = |u: &[f64]| if u.iter().any(|value| *value != 0.0) { u.to_vec() } else { Vec::new() };
+        let (before, wanted) = (system.with_free_displacement(known), tolerance.residual());
         Ok(Self { system, set, position, wanted, share, tolerance: last, goal, is_carried, kept: 0, before, passes: Vec::new() })
     }
 
@@ -182,6 +183,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
                 }
                 Next::Go | Next::Look => {}
             }
+            self.before = self.system.with_free_displacement(<[f64]>::to_vec);
             self.system.set_active(self.set.active())?;
             if matches!(next, Next::Look) {
                 self.goal = self.tolerance.max((LOOK * self.system.residual()?.relative()).min(WIDEST));
@@ -383,13 +385,9 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         Ok(LoopOutcome { solution, ending, passes: self.passes, ascended: self.set.ascends() })
     }
 
-    /// Change of the displacement since the last call, relative to its norm. **Collective**
-    fn change(&mut self) -> f64 {
-        self.system.with_free_displacement(|now| {
-            let change = relative_change(now, &self.before, self.system.session());
-            self.before.copy_from_slice(now);
-            change
-        })
+    /// Change of the displacement since the pass before, relative to its norm. **Collective**
+    fn change(&self) -> f64 {
+        self.system.with_free_displacement(|now| relative_change(now, &self.before, self.system.session()))
     }
 }
 

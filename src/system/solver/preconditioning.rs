@@ -1,6 +1,7 @@
 //! Preconditioners of the displacements.
 
 use crate::discretisation::SMALL;
+use std::collections::BTreeMap;
 
 /// What preconditions the displacements, the weakest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,14 +18,14 @@ pub enum Preconditioning {
 const FLAT: f64 = 0.25;
 
 impl Preconditioning {
-    /// The cheapest one that does on a mesh of so many levels, the macro mesh among them, refined by these ratios.
-    pub fn of(levels: usize, ratios: &[Option<f64>]) -> Self {
-        let flat = levels > 1 && ratios.iter().flatten().any(|&ratio| ratio < FLAT);
+    /// The cheapest one that does on a mesh of so many levels, the macro mesh among them, refined by these ratios at vertices.
+    pub fn of(levels: usize, ratios: &BTreeMap<u32, f64>) -> Self {
+        let flat = levels > 1 && ratios.values().any(|&ratio| ratio < FLAT);
         if flat { Self::TwoSteps } else { Self::Sweep }
     }
 
     /// Where to begin if the choice is free, and why, in words; levels and ratios as in [`Self::of`].
-    pub fn first(levels: usize, ratios: &[Option<f64>], unknowns: usize) -> (Self, String) {
+    pub fn first(levels: usize, ratios: &BTreeMap<u32, f64>, unknowns: usize) -> (Self, String) {
         let preconditioning = Self::of(levels, ratios);
         if levels > 1 {
             let flat = format!(" and some mesh.grade.ratio is below {FLAT}");
@@ -64,16 +65,20 @@ mod tests {
 
     #[test]
     fn a_small_mesh_without_levels_begins_with_a_factor() {
-        assert_eq!(Preconditioning::first(1, &[None], 2000).0, Preconditioning::Factor);
-        assert_eq!(Preconditioning::first(1, &[None], 10_000).0, Preconditioning::Sweep);
-        assert_eq!(Preconditioning::first(3, &[None], 10_000).0, Preconditioning::Sweep);
+        let even = BTreeMap::new();
+        assert_eq!(Preconditioning::first(1, &even, 2000).0, Preconditioning::Factor);
+        assert_eq!(Preconditioning::first(1, &even, 10_000).0, Preconditioning::Sweep);
+        assert_eq!(Preconditioning::first(3, &even, 10_000).0, Preconditioning::Sweep);
     }
 
     #[test]
     fn flat_triangles_begin_with_the_stronger_smoother() {
-        let (preconditioning, words) = Preconditioning::first(3, &[None, Some(0.4), Some(0.2)], 10_000);
-        assert_eq!((preconditioning, Preconditioning::of(3, &[Some(0.3)])), (Preconditioning::TwoSteps, Preconditioning::Sweep));
+        let (preconditioning, words) = Preconditioning::first(3, &[(1, 0.4), (2, 0.2)].into(), 10_000);
+        assert_eq!(
+            (preconditioning, Preconditioning::of(3, &[(0, 0.3)].into())),
+            (Preconditioning::TwoSteps, Preconditioning::Sweep)
+        );
         assert!(words.contains("smoothed by 2 CG steps, because the mesh has 3 levels and some mesh.grade.ratio"), "{words}");
-        assert_eq!(Preconditioning::of(1, &[Some(0.2)]), Preconditioning::Sweep, "not refined at all");
+        assert_eq!(Preconditioning::of(1, &[(0, 0.2)].into()), Preconditioning::Sweep, "not refined at all");
     }
 }

@@ -104,16 +104,16 @@ impl<'a> Cursor<'a> {
         Ok(())
     }
 
-    /// The whole numbers at the beginning of the next line. A line of them alone is read digit by digit, without a look for
-    /// its end and for its words before.
-    pub fn line_into_whole(&mut self, section: &str, values: &mut [i64]) -> Result<(), MeshError> {
-        match digits(&self.bytes[self.at..], values) {
+    /// As [`Cursor::line_in_place_of`], of whole numbers. A line without signs is read digit by digit, without a look for its end and
+    /// for its words before.
+    pub fn wholes_in_place_of(&mut self, section: &str, least: usize, values: &mut Vec<i64>) -> Result<(), MeshError> {
+        match digits(&self.bytes[self.at..], values).filter(|_| values.len() >= least) {
             Some(length) => {
                 self.at += length;
                 self.line += 1;
                 Ok(())
             }
-            None => self.line_into(section, values),
+            None => self.line_in_place_of(section, least, values),
         }
     }
 
@@ -208,26 +208,25 @@ fn number<T: FromStr>(word: &[u8]) -> Option<T> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
-/// Reads a line of so many whole numbers, without signs and parted by single spaces, and gives its length; `None` for any other.
-fn digits(bytes: &[u8], values: &mut [i64]) -> Option<usize> {
+/// Reads a line of whole numbers, without signs and parted by single spaces, and gives its length; `None` for any other.
+fn digits(bytes: &[u8], values: &mut Vec<i64>) -> Option<usize> {
     const MOST_DIGITS: usize = 18;
+    values.clear();
     let mut at = 0;
-    let count = values.len();
-    for (k, value) in values.iter_mut().enumerate() {
-        let start = at;
-        *value = 0;
+    // Gmsh leaves a space at the end of the lines of elements.
+    while *bytes.get(at)? != b'\n' {
+        let (start, mut value) = (at, 0i64);
         while let Some(digit) = bytes.get(at).map(|byte| byte.wrapping_sub(b'0')).filter(|&digit| digit < 10) {
-            *value = value.wrapping_mul(10).wrapping_add(digit.into());
+            value = value.wrapping_mul(10).wrapping_add(digit.into());
             at += 1;
         }
         if at == start || at - start > MOST_DIGITS {
             return None;
         }
-        at += usize::from(k + 1 < count && *bytes.get(at)? == b' ');
+        values.push(value);
+        at += usize::from(*bytes.get(at)? == b' ');
     }
-    // Gmsh leaves a space at the end of the lines of elements.
-    at += usize::from(*bytes.get(at)? == b' ');
-    (*bytes.get(at)? == b'\n').then_some(at + 1)
+    Some(at + 1)
 }
 
 #[cfg(test)]
@@ -237,23 +236,13 @@ mod tests {
     #[test]
     fn lines_of_digits_are_read_and_others_left() {
         let read = |line: &str| {
-            let mut values = [7; 3];
+            let mut values = vec![7; 3];
             digits(line.as_bytes(), &mut values).map(|length| (length, values))
         };
-        assert_eq!(read("1 20 300 \n4"), Some((10, [1, 20, 300])));
-        assert_eq!(read("0 0 999999999999999999\n"), Some((23, [0, 0, 999_999_999_999_999_999])));
-        for other in [
-            "1 2\n",
-            "1 2 3 4\n",
-            "1 -2 3\n",
-            "1  2 3\n",
-            " 1 2 3\n",
-            "1 2 3",
-            "1 2 3.0\n",
-            "1 2 9999999999999999999\n",
-            "",
-            "123\n",
-        ] {
+        assert_eq!(read("1 20 300 \n4"), Some((10, vec![1, 20, 300])));
+        assert_eq!(read("0 999999999999999999\n"), Some((21, vec![0, 999_999_999_999_999_999])));
+        assert_eq!(read("\n1"), Some((1, Vec::new())));
+        for other in ["1 -2 3\n", "1  2 3\n", " 1 2 3\n", "1 2 3", "1 2 3.0\n", "1 2 9999999999999999999\n", ""] {
             assert_eq!(read(other), None, "{other:?}");
         }
     }

@@ -10,7 +10,7 @@ use crate::mesh::raw_mesh::{RawMesh, RawTriangle};
 const ALIKE: f64 = 1e-9;
 
 /// No element has more nodes.
-pub(super) const MOST_NODES: usize = 9;
+const MOST_NODES: usize = 9;
 
 /// What a Gmsh element type is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

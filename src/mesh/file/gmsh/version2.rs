@@ -32,7 +32,7 @@ pub(super) fn read_elements(cursor: &mut Cursor, groups: &Groups, elements: &mut
     let (mut read, mut words) = (0, Vec::<i64>::new());
     while read < count {
         if cursor.is_text() {
-            cursor.line_in_place_of(SECTION, 3, &mut words)?;
+            cursor.wholes_in_place_of(SECTION, 3, &mut words)?;
             let kind = ElementKind::of(words[1]).map_err(|words| cursor.error(words))?;
             let behind = usize::try_from(words[2]).ok().and_then(|tags| words.get(3..)?.split_at_checked(tags));
             let Some((tags, nodes)) = behind.filter(|(_, nodes)| nodes.len() >= kind.nodes) else {

@@ -1,7 +1,7 @@
 //! Nodes and elements of format 4.1: in blocks, one or more for each entity.
 
 use super::cursor::Cursor;
-use super::elements::{ElementKind, Elements, MOST_NODES};
+use super::elements::{ElementKind, Elements};
 use super::groups::Groups;
 use crate::mesh::MeshError;
 
@@ -38,14 +38,14 @@ pub(super) fn read_nodes(cursor: &mut Cursor, elements: &mut Elements) -> Result
     const SECTION: &str = "Nodes";
     for _ in 0..blocks(cursor, SECTION)? {
         let [dimension, _, parametric, count] = block(cursor, SECTION)?;
-        let mut tags = Vec::new();
+        let (mut tags, mut words) = (Vec::new(), Vec::new());
         for _ in 0..count {
-            let mut tag = [0];
-            match cursor.is_text() {
-                true => cursor.line_into_whole(SECTION, &mut tag)?,
-                false => tag[0] = cursor.size(SECTION)?,
-            }
-            tags.extend(tag);
+            tags.push(if cursor.is_text() {
+                cursor.wholes_in_place_of(SECTION, 1, &mut words)?;
+                words[0]
+            } else {
+                cursor.size(SECTION)?
+            });
         }
         for tag in tags {
             let x = if cursor.is_text() {
@@ -71,11 +71,10 @@ pub(super) fn read_elements(cursor: &mut Cursor, groups: &Groups, elements: &mut
         let [dimension, entity, number, count] = block(cursor, SECTION)?;
         let kind = ElementKind::of(number).map_err(|words| cursor.error(words))?;
         let names = elements.names(groups.names_of((usize::try_from(dimension).unwrap_or(usize::MAX), entity)));
-        let mut words = [0; MOST_NODES + 1];
-        let words = &mut words[..=kind.nodes];
+        let mut words = vec![0; kind.nodes + 1];
         for _ in 0..count {
             if cursor.is_text() {
-                cursor.line_into_whole(SECTION, words)?;
+                cursor.wholes_in_place_of(SECTION, kind.nodes + 1, &mut words)?;
             } else {
                 words.iter_mut().try_for_each(|word| cursor.size(SECTION).map(|size| *word = size))?;
             }
