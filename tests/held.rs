@@ -457,3 +457,90 @@ load.top = { on = "top", pressure = 0.1 }
         assert!((ended.number("/contact/seat/force") - 0.09).abs() < 1e-6, "{}", ended.said());
     }
 }
+
+/// Two rings that lie in each other, with clearance around a third: both together are free, and nothing drives them. The turn of each
+/// is held.
+#[test]
+fn bodies_that_are_free_together_within_a_clearance_are_told() {
+    let mesh = crate::support::mesh::Mesh {
+        bodies: vec![
+            ("hub", whole_ring([1.0, 2.0], 24), ["hub.in", "", "hub.out", ""]),
+            ("inner", whole_ring([2.0, 3.0], 32), ["inner.in", "", "inner.out", ""]),
+            ("outer", whole_ring([3.0, 4.0], 40), ["outer.in", "", "outer.out", ""]),
+        ],
+    };
+    let case = r#"
+mesh.file = "mesh.msh"
+body.hub = { young = 2e5, poisson = 0.3 }
+body.inner = { young = 7e4, poisson = 0.3 }
+body.outer = { young = 2e5, poisson = 0.3 }
+geometry.first = { curves = ["hub.out", "inner.in"], circle = { centre = [0, 0], radius = 2 } }
+geometry.second = { curves = ["inner.out", "outer.in"], circle = { centre = [0, 0], radius = 3 } }
+contact.first = { between = ["hub.out", "inner.in"], gap = 0.01 }
+contact.second = { between = ["inner.out", "outer.in"], gap = 0.0 }
+support.hub = { body = "hub", mean = true, ux = 0.0, uy = 0.0, angle = 0.0 }
+support.inner = { body = "inner", mean = true, angle = 0.0 }
+support.outer = { body = "outer", mean = true, angle = 0.0 }
+load.bore = { on = "hub.in", pressure = 100.0 }
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    for ranks in ranks_in_turn(0) {
+        let ended = Run::file(&file).ranks(ranks).ended();
+        assert_eq!(ended.code, Some(3), "{}", ended.said());
+        assert!(ended.said().contains("nothing drives that: hold it by ux = 0.0 in support."), "{}", ended.said());
+    }
+    let held = Run::file(&file).set("support.inner.ux", 0.0).set("support.inner.uy", 0.0).converged();
+    assert!(held.said().contains("contact second touches"), "{}", held.said());
+}
+
+/// A ring around the origin; its sides are the bore and the rim.
+fn whole_ring([inner, outer]: [f64; 2], edges: usize) -> Block {
+    let mut ring = grid(edges, 3, 7, |u, v| {
+        let (angle, radius) = (-2.0 * PI * u, inner + v * (outer - inner));
+        [radius * angle.cos(), radius * angle.sin()]
+    });
+    // The last column is the first one.
+    let first = |node: usize| if node % (edges + 1) == edges { node - edges } else { node };
+    ring.triangles.iter_mut().flatten().for_each(|node| *node = first(*node));
+    ring.sides.iter_mut().flatten().flatten().for_each(|node| *node = first(*node));
+    let used = |node: &usize| node % (edges + 1) < edges;
+    let kept: Vec<usize> = (0..ring.points.len()).filter(used).collect();
+    let number = |node: usize| node - node / (edges + 1);
+    ring.points = kept.iter().map(|&node| ring.points[node]).collect();
+    ring.triangles.iter_mut().flatten().for_each(|node| *node = number(*node));
+    ring.sides.iter_mut().flatten().flatten().for_each(|node| *node = number(*node));
+    ring
+}
+
+/// A block in a rigid box with clearance, on a mesh of which the programme would be dear: of two walls that are equally far it comes
+/// to lie at the one that its load drives it to. The other one was closed, and pulled for ever.
+#[test]
+fn a_body_comes_to_the_wall_that_its_load_drives_it_to() {
+    let mesh = Mesh { bodies: vec![("b", block([-5.0, 5.0], [0.0, 8.0], [80, 64], 3), ["bot", "r", "top", "l"])] };
+    let case = r#"
+mesh = { file = "mesh.msh", order = 2 }
+body.b = { young = 2.1e5, poisson = 0.3 }
+load.p = { on = "top", pressure = 10.0 }
+load.s = { on = "r", pressure = 2.0 }
+rigid.fl = { line = [[-8.0, 0.0], [8.0, 0.0]] }
+rigid.wl = { line = [[-5.01, 9.0], [-5.01, -1.0]] }
+rigid.wr = { line = [[5.01, -1.0], [5.01, 9.0]] }
+contact.f = { between = ["bot", "rigid.fl"] }
+contact.wl = { between = ["l", "rigid.wl"] }
+contact.wr = { between = ["r", "rigid.wr"] }
+output.fields = false
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    let turned = "pressure = -2.0";
+    assert!(case.contains("pressure = 2.0"));
+    let ended = Run::file(&file).ranks(2).converged();
+    let force = |ended: &crate::support::Ended, name: &str| ended.number(&format!("/contact/{name}/force"));
+    for (name, wanted) in [("f", 100.0), ("wl", 16.0), ("wr", 0.0)] {
+        assert!((force(&ended, name) - wanted).abs() < 1e-6, "{name}: {}", ended.said());
+    }
+    let file = write_scene(folder.path(), &mesh.text(), &case.replace("pressure = 2.0", turned));
+    let other = Run::file(&file).converged();
+    assert!((force(&other, "wr") - 16.0).abs() < 1e-6 && force(&other, "wl") == 0.0, "{}", other.said());
+}

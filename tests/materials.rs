@@ -301,3 +301,31 @@ fn a_pressure_across_two_materials_is_as_exact_as_asked() {
     let error = (sums[0] / sums[1]).sqrt();
     assert!((1e-3..1e-2).contains(&error), "{error}");
 }
+
+/// A rigid cylinder presses on both materials at once: λ jumps where they meet, and a segment ends there. The estimate of its error stood
+/// at 1.2 on every mesh, since a tool was taken for a body without stress.
+#[test]
+fn a_jump_of_the_pressure_under_a_rigid_tool_is_followed() {
+    let case = r#"
+mesh = { file = "mesh.msh", order = 2 }
+body.blk.part = { a = { young = 1000, poisson = 0.3 }, b = { young = 100, poisson = 0.3 } }
+body.base = { young = 120, poisson = 0.25 }
+support.top = { on = ["t1", "t2"], ux = 0, uy = 0 }
+support.base = { on = ["bb", "bt"], ux = 0, uy = 0 }
+rigid.roller = { circle = { centre = [1.0, -3.0], radius = 3.0 }, ux = 0.0, force = [0.0, 2.0] }
+contact.seam = { between = [["b1", "b2"], "rigid.roller"] }
+accuracy = { pressure = 0.03, max_unknowns = 60000 }
+output.fields = false
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), include_str!("meshes/two_materials.msh"), case);
+    for ranks in [1, 2] {
+        let ended = Run::file(&file).ranks(ranks).converged();
+        assert!(ended.number("/contact/seam/zones/0/lambda") < 0.03, "{}", ended.said());
+        // The trace has both values of λ at an end of segments.
+        let trace = ended.trace("seam");
+        let jumps = trace.windows(2).filter(|two| two[0].s == two[1].s && (two[0].lambda / two[1].lambda).ln().abs() > 0.5);
+        let places: Vec<f64> = jumps.map(|two| two[0].x[0]).collect();
+        assert!(places.len() == 1 && (places[0] - 1.0).abs() < 1e-2, "{places:?}");
+    }
+}

@@ -298,6 +298,22 @@ load.plate = {{ on = \"top\", rigid = true, force = [1.0, -6.0], moment = 0.5 }}
     }
 }
 
+/// A plate takes its body with it: what is proposed is a component of the plate, which a mean of the body would hold twice.
+#[test]
+fn a_plate_that_nothing_holds_is_to_be_held_itself() {
+    let case = r#"
+mesh = { file = "mesh.msh" }
+body.block = { young = 1000.0, poisson = 0.3 }
+rigid.floor = { line = [[-3.0, 0.0], [5.0, 0.0]] }
+load.plate = { on = "top", rigid = true, force = [0.0, -2.0], moment = 0.0 }
+contact.foot = { between = ["bottom", "rigid.floor"], gap = "closed" }
+"#;
+    let ended = in_folder(&block(), case, Run::ended);
+    assert_eq!(ended.code, Some(3), "{}", ended.said());
+    assert!(ended.said().contains("prescribe ux, uy or angle of load.plate"), "{}", ended.said());
+    in_folder(&block(), &case.replace("rigid = true,", "rigid = true, ux = 0.0,"), Run::converged);
+}
+
 /// Nodal forces of a body that hardly changes its volume are thousands of times as large as what they add up to: rounding of
 /// these is no force on the plate, however exact the solve is to be.
 #[test]

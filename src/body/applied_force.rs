@@ -160,3 +160,25 @@ impl LoadKind {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn what_acts_on_a_short_part_of_an_edge_has_its_resultant_and_its_moment() {
+        let edge = [Point::zeros(), Point::new(1.0, 0.0)];
+        for (width, intervals) in [(0.1, 1), (0.03, 1), (0.01, 1), (0.01, 4)] {
+            let bump = |x: Point, _| Point::new(0.0, 50.0 * (-((x.x - 0.33) / width).powi(2)).exp());
+            let forces = forces_on_edge(&edge, intervals, false, bump);
+            let (sum, moment) = (forces[0].y + forces[1].y, forces[1].y);
+            let wanted = 50.0 * width * PI.sqrt();
+            assert!((sum / wanted - 1.0).abs() < 1e-3 && (moment / (0.33 * wanted) - 1.0).abs() < 1e-3, "{width}: {sum}");
+        }
+        let jumps = forces_on_edge(&edge, 1, false, |x, _| Point::new(0.0, if x.x < 0.3 { 1.0 } else { 0.0 }));
+        assert!((jumps[0].y + jumps[1].y - 0.3).abs() < 1e-3);
+        let even = forces_on_edge(&edge, 1, true, |_, normal| -normal);
+        assert!((even[0] - Point::new(0.0, 0.5)).norm() < 1e-15);
+    }
+}

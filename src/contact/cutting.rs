@@ -245,6 +245,25 @@ mod tests {
     }
 
     #[test]
+    fn segments_end_where_they_are_to_and_keep_their_number_and_their_grading() {
+        let cut = |places: &[f64]| {
+            let (_, mut boundary) = graded_seam(0.5);
+            boundary.cut(&[0.0, 0.1, 0.2, 0.4, 0.7, 1.0]);
+            end_segments_at(&mut boundary, places);
+            boundary.knots().to_vec()
+        };
+        let same = |found: &[f64], wanted: &[f64]| {
+            assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12) && found.len() == wanted.len(), "{found:?}")
+        };
+        same(&cut(&[0.48]), &[0.0, 0.12, 0.24, 0.48, 0.48 + 0.26, 1.0]);
+        same(&cut(&[0.4]), &[0.0, 0.1, 0.2, 0.4, 0.7, 1.0]);
+        same(&cut(&[0.21, 0.6]), &[0.0, 0.105, 0.21, 0.21 + 0.39 * 0.4, 0.6, 1.0]);
+        // Beside an end of Γ_C, and where another one ends already.
+        same(&cut(&[0.03]), &[0.0, 0.1, 0.2, 0.4, 0.7, 1.0]);
+        same(&cut(&[0.68, 0.72]), &[0.0, 0.1 * 0.68 / 0.7, 0.2 * 0.68 / 0.7, 0.4 * 0.68 / 0.7, 0.68, 1.0]);
+    }
+
+    #[test]
     fn a_boundary_far_from_all_edges_is_one_segment() {
         let (_, boundary) = graded_seam(0.5);
         let nothing = [Vec::new(), Vec::new()];

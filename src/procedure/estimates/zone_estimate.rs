@@ -262,6 +262,15 @@ mod tests {
     }
 
     #[test]
+    fn against_a_rigid_tool_the_difference_counts_and_the_stress_where_there_is_none() {
+        let tool = ZoneErrors { by_one_body: true, ..errors(0.02, 0.01) };
+        let found = |last: Option<&ZoneDifference>| ZoneEstimate::new(MultiplierSpace::P0, &tool, [last, None]).pressure;
+        let close = |found: Option<f64>, wanted: f64| assert!(found.is_some_and(|error| (error / MARGIN - wanted).abs() < 1e-12));
+        close(found(Some(&difference(0.1))), 0.058);
+        close(found(None), 0.02);
+    }
+
+    #[test]
     fn one_sign_alone_is_no_estimate() {
         let alone = ZoneErrors { stress: [f64::NAN; 2], ..errors(0.1, 0.1) };
         let found = ZoneEstimate::new(MultiplierSpace::P0, &alone, [None, None]);
