@@ -1,7 +1,6 @@
 //! Where points that the case names lie in a mesh.
 
-use super::macro_mesh::MacroMesh;
-use super::spot::Spot;
+use super::macro_mesh::{MacroMesh, Spot};
 use crate::geometry::Point;
 
 /// Points so close to a vertex, or to an edge on the boundary, by the length of the edges there, are moved onto it.

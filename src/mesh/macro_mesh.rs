@@ -1,16 +1,31 @@
 //! The mesh of the file: triangles of named bodies, edges, named boundaries.
 
-use super::MeshError;
-use super::curve_piece::CurvePiece;
-use super::file_place::FilePlace;
-use super::loose_curve::LooseCurve;
+use super::curve_piece::{CurvePiece, LooseCurve};
 use super::raw_mesh::{RawMesh, RawTriangle};
-use super::spot::NamedPoint;
+use super::{FilePlace, MeshError};
 use crate::element::Plane;
 use crate::geometry::{Coordinates, Curve, Point, Quote, Rounded, cross};
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// A point of a body that the case names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spot {
+    /// Where (length).
+    pub place: [f64; 2],
+    /// The body that is meant, where two may touch.
+    pub body: Option<String>,
+}
+
+/// A point that the case names, and the vertex there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedPoint {
+    /// What the case says.
+    pub spot: Spot,
+    /// The vertex.
+    pub vertex: u32,
+}
 
 /// A body, or a part of one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
