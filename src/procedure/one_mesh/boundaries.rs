@@ -13,9 +13,8 @@ use crate::multigrid::{Elastic, Interpolation, interpolations};
 use crate::petsc::options;
 use crate::procedure::boundary::{BoundaryStep, Following, NextBoundary, carried, standing, start_from};
 use crate::procedure::ending::{Ending, Failure, Standing};
-use crate::procedure::observer::{Event, Work};
 use crate::procedure::sets::{ContactLoop, LoopOutcome, LoopPosition, Pass};
-use crate::procedure::settings::Procedure;
+use crate::procedure::settings::{Event, Procedure, Work};
 use crate::system::{Preconditioning, SaddlePoint, Start, System, Tolerance};
 use std::rc::Rc;
 

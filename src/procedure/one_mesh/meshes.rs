@@ -5,11 +5,10 @@ use crate::procedure::at_rest::AtRest;
 use crate::procedure::coarse_solution::CoarseSolution;
 use crate::procedure::ending::{Ending, Failure};
 use crate::procedure::estimates::{Difference, Estimate};
-use crate::procedure::observer::{Event, Work};
 use crate::procedure::one_mesh::begun::Begun;
 use crate::procedure::one_mesh::boundaries::{MeshHistory, OnMesh, OneMesh};
 use crate::procedure::predecessor::Predecessor;
-use crate::procedure::settings::Procedure;
+use crate::procedure::settings::{Event, Procedure, Work};
 use crate::procedure::solved::{CoarseSolve, Solved};
 use crate::system::{Preconditioning, SolverChoice, Start, Tolerance};
 
