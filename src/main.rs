@@ -4,12 +4,13 @@ use clap::Parser;
 use clap::error::ErrorKind as UsageKind;
 use mezha::arguments::{Arguments, CheckArguments, Command, FileKind, RunArguments, Study, nearest_command};
 use mezha::case::{Inputs, schema};
+use mezha::output::RunError;
 use mezha::output::summary::Status;
 use mezha::petsc::{
     self, Session, TellingAllocator, end_all_ranks, errors_are_final, share_memory_among_threads, when_memory_is_refused,
 };
-use mezha::run::{self, RunError, RunOptions, interruption};
-use mezha::study::{self, StudyError};
+use mezha::run::{self, RunOptions, interruption};
+use mezha::study;
 use std::io::{ErrorKind, Write, stderr, stdout};
 use std::path::Path;
 use std::process::exit;
@@ -238,8 +239,7 @@ fn study(arguments: &Study) -> i32 {
     match study::run(&arguments.file(), &arguments.overrides, &arguments.out, arguments.force) {
         Ok(true) => 0,
         Ok(false) => 3,
-        Err(StudyError::Input(words)) => print(&RunError::Input(words)),
-        Err(StudyError::Failed(words)) => print(&RunError::Failed(words)),
+        Err(error) => print(&error),
     }
 }
 

@@ -124,7 +124,7 @@ impl Scene {
             let (own, faced) = (extent(own), self.faced_by_tool(piece.body).map(extent));
             faced.filter(|faced| faced.radius < own.radius).unwrap_or(own)
         };
-        self.mesh.bounds().into_iter().zip(&self.mesh.pieces).map(of_piece).collect()
+        self.mesh.bounds().iter().copied().zip(&self.mesh.pieces).map(of_piece).collect()
     }
 
     /// The box around the boundaries that a tool is in contact with; nothing if a body is no tool.

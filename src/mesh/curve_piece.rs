@@ -1,4 +1,4 @@
-//! Pieces of curves: the true shape of one macro edge, or a part of the surface of a rigid tool.
+//! Pieces of curves: the true shape of one macro edge, or a part of the surface of a rigid tool; and curves that bound no body.
 
 use crate::geometry::{Curve, Point};
 use std::sync::Arc;
@@ -22,4 +22,13 @@ impl CurvePiece {
     pub fn point(&self, t: f64) -> Point {
         self.curve.point(self.parameter(t))
     }
+}
+
+/// A physical curve without triangles: no line of it lies between nodes that triangles have. It may be drawn for a rigid tool.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LooseCurve {
+    /// Name in the mesh file.
+    pub name: String,
+    /// Ends of its lines, in the order of the file.
+    pub lines: Vec<[Point; 2]>,
 }

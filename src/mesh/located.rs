@@ -1,7 +1,6 @@
 //! Where points that the case names lie in a mesh.
 
-use super::macro_mesh::MacroMesh;
-use super::spot::Spot;
+use super::macro_mesh::{MacroMesh, Spot};
 use crate::geometry::Point;
 
 /// Points so close to a vertex, or to an edge on the boundary, by the length of the edges there, are moved onto it.
@@ -19,6 +18,21 @@ pub(super) enum Located {
 }
 
 impl MacroMesh {
+    /// Smallest box around all vertices of each piece: lower left and upper right corner. It is found once.
+    pub fn bounds(&self) -> &[[Point; 2]] {
+        self.bounds.get_or_init(|| {
+            let mut bounds = vec![[Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)]; self.pieces.len()];
+            for triangle in &self.triangles {
+                let [low, high] = &mut bounds[triangle.piece as usize];
+                for &vertex in &triangle.vertices {
+                    let x = self.vertices[vertex as usize];
+                    (*low, *high) = (low.inf(&x), high.sup(&x));
+                }
+            }
+            bounds
+        })
+    }
+
     /// The vertex at a point that the case names; nothing if the mesh was not made for it.
     pub fn vertex_at(&self, spot: &Spot) -> Option<u32> {
         self.points.iter().find(|point| point.spot == *spot).map(|point| point.vertex)

@@ -1,17 +1,32 @@
 //! The mesh of the file: triangles of named bodies, edges, named boundaries.
 
-use super::MeshError;
-use super::curve_piece::CurvePiece;
-use super::file_place::FilePlace;
-use super::loose_curve::LooseCurve;
+use super::curve_piece::{CurvePiece, LooseCurve};
 use super::raw_mesh::{RawMesh, RawTriangle};
-use super::spot::NamedPoint;
+use super::{FilePlace, MeshError};
 use crate::element::Plane;
 use crate::geometry::{Coordinates, Curve, Point, Quote, Rounded, cross};
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// A point of a body that the case names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spot {
+    /// Where (length).
+    pub place: [f64; 2],
+    /// The body that is meant, where two may touch.
+    pub body: Option<String>,
+}
+
+/// A point that the case names, and the vertex there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedPoint {
+    /// What the case says.
+    pub spot: Spot,
+    /// The vertex.
+    pub vertex: u32,
+}
 
 /// A body, or a part of one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -364,23 +379,6 @@ impl MacroMesh {
     /// Smallest angle of a macro triangle with straight sides (radians).
     pub fn smallest_angle(&self, triangle: usize) -> f64 {
         smallest_angle(self.corners(triangle))
-    }
-
-    /// Smallest box around all vertices of each piece: lower left and upper right corner.
-    pub fn bounds(&self) -> Vec<[Point; 2]> {
-        self.bounds.get_or_init(|| self.found_bounds()).clone()
-    }
-
-    fn found_bounds(&self) -> Vec<[Point; 2]> {
-        let mut bounds = vec![[Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)]; self.pieces.len()];
-        for triangle in &self.triangles {
-            let [low, high] = &mut bounds[triangle.piece as usize];
-            for &vertex in &triangle.vertices {
-                let x = self.vertices[vertex as usize];
-                (*low, *high) = (low.inf(&x), high.sup(&x));
-            }
-        }
-        bounds
     }
 }
 

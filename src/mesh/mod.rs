@@ -58,12 +58,10 @@ mod each_once;
 mod edges;
 mod faults;
 mod file;
-mod file_place;
 mod kept;
 pub mod lattice;
 mod levels;
 mod located;
-mod loose_curve;
 mod macro_mesh;
 mod morton;
 mod partition;
@@ -72,24 +70,31 @@ mod refined;
 mod revolution;
 #[cfg(test)]
 pub(crate) mod samples;
-mod spot;
 mod tools;
 
 pub use chain::Stretch;
-pub use curve_piece::CurvePiece;
+pub use curve_piece::{CurvePiece, LooseCurve};
 pub use curved::{BoundaryVertex, Corner, SmoothNormals, SmoothPoint};
 pub use each_once::each_once;
 pub use faults::Slit;
 pub use file::{parse_gmsh, read_bytes, read_regular, surfaces, touching_surfaces};
-pub use file_place::FilePlace;
 pub use levels::{BoundaryEdge, EdgeNode, Level, Numbering, Shapes, TriangleNumbers, levels};
-pub use loose_curve::LooseCurve;
-pub use macro_mesh::{BodyPiece, Boundary, MacroEdge, MacroMesh, MacroTriangle, Region, Surface};
+pub use macro_mesh::{BodyPiece, Boundary, MacroEdge, MacroMesh, MacroTriangle, NamedPoint, Region, Spot, Surface};
 pub use partition::{Graph, Partition, middle_of_group};
 pub use refined::{BisectedMesh, Cells, Origin};
-pub use spot::{NamedPoint, Spot};
 
 use std::path::{Path, PathBuf};
+
+/// A place in a mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FilePlace {
+    /// A line of a text, from 1.
+    #[error("line {0}")]
+    Line(usize),
+    /// This number of bytes from the beginning of a binary file.
+    #[error("byte {0}")]
+    Byte(usize),
+}
 
 /// Why a mesh cannot be used: file, place, what was found and what to do.
 #[derive(Debug, thiserror::Error)]

@@ -1,8 +1,8 @@
 //! What a mesh file says, before it is checked and connected.
 
-use super::file_place::FilePlace;
+use super::FilePlace;
+use super::curve_piece::LooseCurve;
 use super::kept::Kept;
-use super::loose_curve::LooseCurve;
 use crate::geometry::Point;
 use std::collections::{HashMap, HashSet};
 

@@ -1,6 +1,6 @@
 //! Small meshes for unit tests.
 
-use super::file_place::FilePlace;
+use super::FilePlace;
 use super::macro_mesh::MacroMesh;
 use super::raw_mesh::{RawMesh, RawTriangle};
 use crate::geometry::Point;

@@ -1,4 +1,4 @@
-//! What can go wrong on the way to the disk.
+//! What can go wrong on the way to the disk, and why there is no result.
 
 use std::fs;
 use std::io::{self, ErrorKind};
@@ -91,5 +91,38 @@ impl OutputError {
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> OutputError {
         let path = path.to_path_buf();
         move |source| OutputError::Io { action, path, source }
+    }
+}
+
+/// Why there is no result, of a run or of a study.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{0}")]
+pub enum RunError {
+    /// The input cannot be used, on every rank alike: 2.
+    Input(String),
+    /// The same, in words that begin with a key; the caller puts the case file before them.
+    Key(String),
+    /// Somebody has changed the input, or the result is in another place than it was meant for; on every rank alike: 1.
+    Overtaken(String),
+    /// PETSc, MPI or the disk failed, perhaps on this rank alone: 1.
+    Failed(String),
+}
+
+impl RunError {
+    /// The exit code.
+    pub fn code(&self) -> i32 {
+        match self {
+            Self::Input(_) | Self::Key(_) => 2,
+            Self::Overtaken(_) | Self::Failed(_) => 1,
+        }
+    }
+}
+
+impl From<OutputError> for RunError {
+    fn from(error: OutputError) -> Self {
+        match error {
+            OutputError::Io { .. } | OutputError::Figure { .. } => Self::Failed(error.to_string()),
+            refused => Self::Input(refused.to_string()),
+        }
     }
 }

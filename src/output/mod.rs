@@ -27,7 +27,7 @@ mod units;
 
 pub use clock::clock;
 pub use data::{CONTACTS, SIGNS, contact_table, contacts_table, csv_line, quoted, steps_table, vtk, write_text};
-pub use error::OutputError;
+pub use error::{OutputError, RunError};
 pub use folder::{ResultFolder, entries, recover, remove_if_there};
 pub use summary::{Summary, machine, whole_machine};
 pub use units::{Unit, Units};

@@ -1,8 +1,7 @@
 //! Linear solvers.
 
 use super::error::{Error, Result, given_back, petsc, words};
-use super::ffi;
-use super::index::Index;
+use super::ffi::{self, Index};
 use super::matrix::Matrix;
 use super::preconditioner::Preconditioner;
 use super::session::Session;

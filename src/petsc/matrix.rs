@@ -1,8 +1,7 @@
 //! Distributed matrices.
 
 use super::error::{Result, given_back, petsc};
-use super::ffi;
-use super::index::Index;
+use super::ffi::{self, Index};
 use super::session::Session;
 use super::vector::{Vector, length};
 use std::ops::Range;

@@ -1,8 +1,7 @@
 //! Division of a graph into parts.
 
 use super::error::{Result, given_back, petsc};
-use super::ffi;
-use super::index::Index;
+use super::ffi::{self, Index};
 use super::index_set::IndexSet;
 use super::matrix::Matrix;
 use super::session::Session;

@@ -1,8 +1,7 @@
 //! Distributed vectors.
 
 use super::error::{Result, given_back, petsc};
-use super::ffi;
-use super::index::Index;
+use super::ffi::{self, Index};
 use super::session::Session;
 use std::ops::{Deref, DerefMut, Range};
 use std::{ptr, slice};

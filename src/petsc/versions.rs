@@ -1,7 +1,7 @@
 //! Versions of the libraries that are loaded.
 
 use super::error::petsc;
-use super::index::Index;
+use super::ffi::Index;
 use std::ptr;
 
 /// PETSc's version, such as `3.18.5`.

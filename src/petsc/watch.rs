@@ -1,8 +1,7 @@
 //! How far the linear solve at work has come, for a thread that watches.
 
 use super::error::{Result, petsc};
-use super::ffi;
-use super::index::Index;
+use super::ffi::{self, Index};
 use super::krylov::Krylov;
 use std::ffi::c_void;
 use std::ptr;

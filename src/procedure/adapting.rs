@@ -7,11 +7,10 @@ use crate::mesh::Cells;
 use crate::petsc::StageGuard;
 use crate::procedure::ending::MOVES;
 use crate::procedure::estimates::{Duals, Estimate, weighted};
-use crate::procedure::observer::{Event, Observer, Work};
 use crate::procedure::one_mesh::OneMesh;
 use crate::procedure::predecessor::Predecessor;
 use crate::procedure::sequence::{Indicators, LocalIndicator, MeshSequence};
-use crate::procedure::settings::Procedure;
+use crate::procedure::settings::{Event, Observer, Procedure, Work};
 use crate::procedure::solved::Solved;
 use std::cell::Cell;
 

@@ -8,9 +8,8 @@
 use crate::discretisation::{Scene, SystemError};
 use crate::mesh::Origin;
 use crate::procedure::ending::{Ending, Failure};
-use crate::procedure::observer::Event;
 use crate::procedure::predecessor::Predecessor;
-use crate::procedure::settings::Procedure;
+use crate::procedure::settings::{Event, Procedure};
 use crate::procedure::solved::Solved;
 
 impl Procedure<'_> {

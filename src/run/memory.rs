@@ -1,7 +1,8 @@
 //! How much memory a run may take: what its machines have left, and what control groups and `ulimit` leave of that; and whether
 //! it will do with that.
 
-use super::outcome::{RunError, keep_forecast, size};
+use super::outcome::{keep_forecast, size};
+use crate::output::RunError;
 use crate::petsc::Session;
 use std::path::{Path, PathBuf};
 

@@ -68,17 +68,15 @@ mod telling;
 mod verdict;
 mod words;
 
-pub use checking::draw_case;
-pub use checking::{Checked, check, check_file};
-pub use checking::{FirstCase, first_case, path_from};
-pub use checking::{info, version};
-pub use outcome::{RunError, out_of_memory_remedy};
+pub use checking::{Checked, FirstCase, check, check_file, draw_case, first_case, info, path_from, version};
+pub use outcome::out_of_memory_remedy;
 pub use reading::read_case;
 pub use run_options::RunOptions;
 pub use telling::interruption;
 
 use crate::case::Case;
 use crate::discretisation::Scene;
+use crate::output::RunError;
 use crate::output::summary::Status;
 use crate::petsc::Session;
 use reading::options::refuse_options;

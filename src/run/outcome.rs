@@ -2,7 +2,7 @@
 
 use crate::case::{Case, LoadStep};
 use crate::discretisation::SystemError;
-use crate::output::OutputError;
+use crate::output::RunError;
 use crate::petsc;
 use std::fmt::Display;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -11,29 +11,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// forecast.
 static FORECAST: AtomicU64 = AtomicU64::new(0);
 
-/// Why there is no result.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{0}")]
-pub enum RunError {
-    /// The input cannot be used, on every rank alike: 2.
-    Input(String),
-    /// The same, in words that begin with a key; the caller puts the case file before them.
-    Key(String),
-    /// Somebody has changed the input, or the result is in another place than it was meant for; on every rank alike: 1.
-    Overtaken(String),
-    /// PETSc, MPI or the disk failed, perhaps on this rank alone: 1.
-    Failed(String),
-}
-
 impl RunError {
-    /// The exit code.
-    pub fn code(&self) -> i32 {
-        match self {
-            Self::Input(_) | Self::Key(_) => 2,
-            Self::Overtaken(_) | Self::Failed(_) => 1,
-        }
-    }
-
     /// With the load step before words that begin with a key.
     pub(super) fn in_step(self, step: &LoadStep) -> Self {
         self.behind(step.words(), Self::Key)
@@ -90,14 +68,5 @@ impl From<petsc::Error> for RunError {
     fn from(error: petsc::Error) -> Self {
         let remedy = if matches!(error, petsc::Error::OutOfMemory { .. }) { out_of_memory_remedy() } else { String::new() };
         Self::Failed(format!("{error}{remedy}"))
-    }
-}
-
-impl From<OutputError> for RunError {
-    fn from(error: OutputError) -> Self {
-        match error {
-            OutputError::Io { .. } | OutputError::Figure { .. } => Self::Failed(error.to_string()),
-            refused => Self::Input(refused.to_string()),
-        }
     }
 }

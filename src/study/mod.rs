@@ -5,7 +5,6 @@
 //! are made in `runs`, put side by side in `table`, and become texts in `shown`. A study solves nothing itself: what it knows of a
 //! run is its exit code and its `summary.json`.
 
-mod error;
 mod plan;
 mod runs;
 mod shown;
@@ -13,9 +12,9 @@ mod table;
 
 use std::path::Path;
 
+use crate::output::RunError;
 use crate::output::plot::{diagrams, named_diagrams};
 
-pub use error::StudyError;
 pub use plan::Plan;
 
 use plan::planned::PlannedRun;
@@ -35,9 +34,9 @@ use table::rows::Table;
 /// whether any run has a result.
 ///
 /// # Errors
-/// [`StudyError`] if there is no table.
-pub fn run(file: &Path, overrides: &[String], out: &Path, force: bool) -> Result<bool, StudyError> {
-    let plan = Plan::read(file, overrides)?;
+/// [`RunError`] if there is no table.
+pub fn run(file: &Path, overrides: &[String], out: &Path, force: bool) -> Result<bool, RunError> {
+    let plan = Plan::read(file, overrides).map_err(|error| RunError::Input(error.to_string()))?;
     let program = Program::this()?;
     let folder = Folder::open(out, &plan.name, force)?;
     let want = |run: &PlannedRun| {
@@ -77,12 +76,12 @@ fn make(
     wanted: &[Wanted],
     places: Vec<ResultPlace>,
     progress: &Progress,
-) -> Result<Vec<Ended>, StudyError> {
+) -> Result<Vec<Ended>, RunError> {
     if places.iter().any(|place| place.kept.is_none()) {
         folder.remove_tables()?;
     }
     let execution = Execution::new(program, folder, plan.timeout)
-        .map_err(|error| StudyError::Failed(format!("cannot wait for signals: {error}")))?;
+        .map_err(|error| RunError::Failed(format!("cannot wait for signals: {error}")))?;
     let mut results = Vec::with_capacity(plan.runs.len());
     for (index, place) in places.into_iter().enumerate() {
         let planned = &plan.runs[index];
@@ -95,7 +94,7 @@ fn make(
                 if let Some(signal) = execution.interrupted() {
                     folder.clear(place.number)?;
                     progress.interrupted();
-                    return Err(StudyError::Failed(format!(
+                    return Err(RunError::Failed(format!(
                         "interrupted by {signal} in run {} of {}; the runs before are kept, and the same command goes on from there",
                         index + 1,
                         plan.runs.len()

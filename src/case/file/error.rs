@@ -1,5 +1,6 @@
-//! What is wrong with a case or a study, in words.
+//! What is wrong with a case or a study, in words, and what else is found while it is read.
 
+use std::collections::HashMap;
 use std::fmt::{self, Display, Formatter};
 use std::path::{Path, PathBuf};
 
@@ -170,6 +171,34 @@ pub(crate) fn listed(names: impl Iterator<Item = String>) -> String {
     match all.len().saturating_sub(MOST_NAMES) {
         0 => all.join(", "),
         more => format!("{} and {more} more", all[..MOST_NAMES].join(", ")),
+    }
+}
+
+/// What was found while reading a file.
+#[derive(Default)]
+pub struct Log {
+    /// Everything that is wrong.
+    pub problems: Vec<Problem>,
+    /// Defaults that were used: path and value.
+    pub defaults: Vec<(Vec<String>, Value)>,
+    /// Paths that the command line has set.
+    pub overridden: Vec<Vec<String>>,
+    /// Paths of tables that patterns of the file have made, and where these are written.
+    pub written: HashMap<Vec<String>, Vec<String>>,
+}
+
+impl Log {
+    /// A path as the file has it: what is wrong with a table that stands for many is told once.
+    pub fn as_written(&self, path: Vec<String>) -> Vec<String> {
+        let made = (1..=path.len()).find_map(|end| Some((end, self.written.get(&path[..end])?)));
+        made.map_or_else(|| path.clone(), |(end, written)| [written.as_slice(), &path[end..]].concat())
+    }
+
+    /// Adds a problem, once if a pattern has made tables of many.
+    pub fn add(&mut self, problem: Problem) {
+        if self.written.is_empty() || !self.problems.contains(&problem) {
+            self.problems.push(problem);
+        }
     }
 }
 

@@ -6,6 +6,5 @@
 
 pub mod error;
 pub mod fingerprint;
-pub mod log;
 pub mod overrides;
 pub mod text;

@@ -4,8 +4,7 @@ use std::path::Path;
 
 use toml::{Table, Value};
 
-use super::error::{CaseError, Problem, told};
-use super::log::Log;
+use super::error::{CaseError, Log, Problem, told};
 use crate::geometry::Quote;
 
 /// A key at the root of a file, and a key below it: a number under the first stands for a table with it under the second.

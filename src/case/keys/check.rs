@@ -6,8 +6,7 @@ use super::form::{
     Absent, KeyForm, LONGEST_NAME, ListForm, NO_FILE_NAME, NamedForm, NumberRange, TableForm, TableRule, ValueForm,
 };
 use super::values::{self, must_be};
-use crate::case::file::error::{Problem, decimal_comma, did_you_mean, told};
-use crate::case::file::log::Log;
+use crate::case::file::error::{Log, Problem, decimal_comma, did_you_mean, told};
 use crate::geometry::Formula;
 
 /// Neighbours of a key that are listed at most.

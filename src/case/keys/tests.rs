@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use toml::Table;
 
 use super::*;
-use crate::case::file::log::Log;
+use crate::case::file::error::Log;
 
 declare! {
     /// A table whose comment

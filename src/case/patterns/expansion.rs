@@ -3,8 +3,7 @@
 use super::merging::{StandsFor, merged};
 use super::mesh_names::{MeshNames, point};
 use super::wildcard::{is_pattern, matches};
-use crate::case::file::error::{Problem, dotted, listed, quoted, told};
-use crate::case::file::log::Log;
+use crate::case::file::error::{Log, Problem, dotted, listed, quoted, told};
 use crate::case::file::overrides::{read_key, set_value};
 use crate::geometry::Quote;
 use std::collections::{HashMap, HashSet};
@@ -148,7 +147,7 @@ impl Expansion<'_> {
         for (name, value) in self.values("probe", "body") {
             let Some(pattern) = value.as_str().filter(|text| is_pattern(text)) else { continue };
             let path = ["probe", name.as_str(), "body"];
-            let all = self.matching(&path, pattern, &mesh.bodies, "body");
+            let all = self.matching(&path, pattern, &mesh.mesh.bodies, "body");
             let point = table_at(&self.table, &path[..2]).and_then(|probe| point(probe.get("point")?));
             let holding = point.map_or_else(Vec::new, |point| mesh.holding(&all, point));
             match &holding[..] {

@@ -1,19 +1,18 @@
 //! The mesh of a case with patterns: what names there are, and what lies where.
 
 use crate::case::keys::values::number;
-use crate::geometry::{Point, cross};
+use crate::geometry::Point;
 use crate::mesh::{Boundary, MacroMesh};
 use toml::Value;
 
-/// A point lies in a triangle if none of its barycentric coordinates is less: points on the boundary do, and those between a
-/// chord and its arc rather than elsewhere.
+/// A point lies in a triangle if none of its barycentric coordinates is less: points on the boundary do.
 const INSIDE: f64 = -1e-3;
-const BEHIND_CHORD: f64 = -0.2;
+/// Points outside by no more (barycentric) lie between a chord and its arc rather than elsewhere.
+const BEHIND_CHORD: f64 = 0.2;
 
 /// Names of a mesh.
 pub struct MeshNames {
     pub mesh: MacroMesh,
-    pub bodies: Vec<String>,
     /// Physical surfaces that are parts of bodies.
     pub parts: Vec<String>,
     pub boundaries: Vec<String>,
@@ -26,7 +25,6 @@ impl MeshNames {
         let names = |all: &[Boundary]| all.iter().map(|boundary| boundary.name.clone()).collect();
         let parts = mesh.parts.iter().filter(|part| mesh.bodies[part.body as usize] != part.name);
         Self {
-            bodies: mesh.bodies.clone(),
             parts: parts.map(|part| part.name.clone()).collect(),
             boundaries: names(&mesh.boundaries),
             interfaces: names(&mesh.interfaces),
@@ -38,17 +36,15 @@ impl MeshNames {
     pub fn holding(&self, bodies: &[String], x: Point) -> Vec<String> {
         let mesh = &self.mesh;
         let mut deepest = vec![f64::NEG_INFINITY; mesh.bodies.len()];
-        for triangle in &mesh.triangles {
-            let [a, b, c] = triangle.vertices.map(|vertex| mesh.vertices[vertex as usize]);
-            let area = cross(b - a, c - a);
-            let shares = [cross(b - x, c - x), cross(c - x, a - x), cross(a - x, b - x)].map(|share| share / area);
+        for (k, triangle) in mesh.triangles.iter().enumerate() {
+            let Some(at) = mesh.locate_near(k, x, BEHIND_CHORD) else { continue };
             let depth = &mut deepest[triangle.body as usize];
-            *depth = depth.max(shares.into_iter().fold(f64::INFINITY, f64::min));
+            *depth = depth.max(at.min().min(1.0 - at.x - at.y));
         }
         let depth =
             |name: &String| mesh.bodies.iter().position(|body| body == name).map_or(f64::NEG_INFINITY, |body| deepest[body]);
         let inside: Vec<String> = bodies.iter().filter(|name| depth(name) >= INSIDE).cloned().collect();
-        let nearest = || bodies.iter().max_by(|a, b| depth(a).total_cmp(&depth(b))).filter(|name| depth(name) >= BEHIND_CHORD);
+        let nearest = || bodies.iter().max_by(|a, b| depth(a).total_cmp(&depth(b))).filter(|name| depth(name).is_finite());
         if inside.is_empty() { nearest().into_iter().cloned().collect() } else { inside }
     }
 

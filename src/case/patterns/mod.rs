@@ -13,7 +13,7 @@ mod wildcard;
 
 pub use expansion::Matched;
 
-use super::file::log::Log;
+use super::file::error::Log;
 use expansion::{Expansion, strings, table_at};
 use mesh_names::MeshNames;
 use std::collections::HashMap;
@@ -69,7 +69,7 @@ pub fn written_out(table: Table, folder: &Path, log: &mut Log, bytes: ReadMesh) 
 
 impl Expansion<'_> {
     fn write_out(&mut self, mesh: &MeshNames) {
-        self.write_out_names(&["body"], &mesh.bodies, "body");
+        self.write_out_names(&["body"], &mesh.mesh.bodies, "body");
         self.write_out_values("geometry", "curves", &[&mesh.boundaries[..], &mesh.interfaces].concat(), "physical curve");
         self.spread_loads(mesh);
         for kind in ["support", "load"] {
@@ -82,7 +82,7 @@ impl Expansion<'_> {
         for path in [&["contact"][..], &["accuracy", "contact"], &["exact", "contact"]] {
             self.write_out_names(path, &contacts, "contact");
         }
-        self.write_out_names(&["exact", "body"], &[&mesh.bodies[..], &mesh.parts].concat(), "body");
+        self.write_out_names(&["exact", "body"], &[&mesh.mesh.bodies[..], &mesh.parts].concat(), "body");
         self.write_out_scales();
     }
 }

@@ -63,7 +63,7 @@ impl Expansion<'_> {
     fn on_bodies(&mut self, kind: &'static str, name: &str, table: &Value, mesh: &MeshNames) -> Option<Vec<(String, Table)>> {
         if let Some(pattern) = table.get("body").and_then(Value::as_str).filter(|text| is_pattern(text)) {
             let path = [kind, name, "body"];
-            let mut bodies = self.matching(&path, pattern, &mesh.bodies, "body");
+            let mut bodies = self.matching(&path, pattern, &mesh.mesh.bodies, "body");
             if let Some(at) = table.get("at").and_then(point) {
                 let all = bodies.len();
                 bodies = mesh.holding(&bodies, at);

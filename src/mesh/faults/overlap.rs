@@ -1,6 +1,6 @@
 //! Triangles that overlap their own body.
 
-use crate::geometry::{Coordinates, Point, bounds, cross};
+use crate::geometry::{Coordinates, Disc, Point, bounds, cross, overlapping_discs};
 use crate::mesh::MeshError;
 use crate::mesh::macro_mesh::MacroMesh;
 
@@ -19,20 +19,32 @@ impl MacroMesh {
             edges.iter().any(|&edge| self.edges[edge as usize].triangles[1].is_none())
         };
         let on_boundary: Vec<usize> = (0..self.triangles.len()).filter(|&triangle| on_boundary(triangle)).collect();
-        let (strip, grids) = (BoundaryStrip::new(self, &on_boundary), BoundaryGrids::new(self, &on_boundary));
-        for triangle in (0..self.triangles.len()).filter(|&triangle| strip.meets(&self.corners(triangle))) {
-            let alike = |other: &usize| *other != triangle && self.triangles[*other].body == self.triangles[triangle].body;
-            let corners = self.corners(triangle);
-            if grids.near(&corners).filter(alike).any(|other| overlap(corners, self.corners(other))) {
-                let (x, body) = (corners.iter().sum::<Point>() / 3.0, &self.bodies[self.triangles[triangle].body as usize]);
-                return Err(self.unusable(format!(
-                    "triangles of body \"{body}\" overlap near {}: the same place would count twice; mesh the scene again",
-                    Coordinates(x)
-                )));
+        let strip = BoundaryStrip::new(self, &on_boundary);
+        let near: Vec<usize> = (0..self.triangles.len()).filter(|&triangle| strip.meets(&self.corners(triangle))).collect();
+        let [discs, outer] = [&near, &on_boundary].map(|all| all.iter().map(|&k| disc(&self.corners(k))).collect::<Vec<_>>());
+        let mut first = usize::MAX;
+        overlapping_discs(&discs, &outer, |a, b| {
+            let [one, other] = [near[a], on_boundary[b]];
+            let is_alike = one != other && self.triangles[one].body == self.triangles[other].body;
+            if is_alike && one < first && overlap(self.corners(one), self.corners(other)) {
+                first = one;
             }
+        });
+        if first < self.triangles.len() {
+            let (x, body) = (disc(&self.corners(first)).middle, &self.bodies[self.triangles[first].body as usize]);
+            return Err(self.unusable(format!(
+                "triangles of body \"{body}\" overlap near {}: the same place would count twice; mesh the scene again",
+                Coordinates(x)
+            )));
         }
         Ok(())
     }
+}
+
+/// A disc that holds a triangle.
+fn disc(corners: &[Point; 3]) -> Disc {
+    let middle = corners.iter().sum::<Point>() / 3.0;
+    Disc { middle, radius: corners.iter().map(|x| (x - middle).norm()).fold(0.0, f64::max) }
 }
 
 /// Whether two triangles, both counter-clockwise, have an area in common: no side of either parts them.
@@ -105,76 +117,6 @@ impl BoundaryStrip {
     }
 }
 
-/// A square of a grid: the level of its size 2^level, and its place.
-type GridSquare = (i32, i64, i64);
-
-/// Grids of squares of many sizes, with the triangles on boundaries.
-struct BoundaryGrids {
-    low: Point,
-    /// Levels of all triangles, ascending.
-    levels: Vec<i32>,
-    /// Each triangle in those squares of about its own size that its box meets, sorted by them.
-    own: Vec<(GridSquare, u32)>,
-    /// Each triangle in those squares of all larger sizes, and of its own.
-    larger: Vec<(GridSquare, u32)>,
-}
-
-impl BoundaryGrids {
-    fn new(mesh: &MacroMesh, on_boundary: &[usize]) -> Self {
-        let [low, _] = bounds(mesh.vertices.iter().copied());
-        // Triangles that follow each other are mostly of one level.
-        let mut levels: Vec<i32> = (0..mesh.triangles.len()).map(|triangle| level(&mesh.corners(triangle))).collect();
-        levels.dedup();
-        levels.sort_unstable();
-        levels.dedup();
-        let mut grids = Self { low, levels, own: Vec::new(), larger: Vec::new() };
-        for &triangle in on_boundary {
-            let corners = mesh.corners(triangle);
-            let own = level(&corners);
-            for &level in &grids.levels[grids.levels.partition_point(|&level| level < own)..] {
-                grids.larger.extend(under(low, &corners, level).map(|square| (square, triangle as u32)));
-            }
-            grids.own.extend(under(low, &corners, own).map(|square| (square, triangle as u32)));
-        }
-        grids.own.sort_unstable();
-        grids.larger.sort_unstable();
-        grids
-    }
-
-    /// Triangles on boundaries that may overlap one; some come more than once.
-    fn near<'a>(&'a self, corners: &'a [Point; 3]) -> impl Iterator<Item = usize> + 'a {
-        let own = level(corners);
-        let above = &self.levels[self.levels.partition_point(|&level| level <= own)..];
-        let larger =
-            above.iter().flat_map(move |&level| under(self.low, corners, level).flat_map(|square| of_square(&self.own, square)));
-        let smaller = under(self.low, corners, own).flat_map(|square| of_square(&self.larger, square));
-        smaller.chain(larger)
-    }
-}
-
-/// The squares of a level under the box of a triangle, in grids that begin at `low`.
-fn under(low: Point, corners: &[Point; 3], level: i32) -> impl Iterator<Item = GridSquare> + use<> {
-    let [a, b, c] = corners.map(|x| (x - low) / 2f64.powi(level));
-    let (low, high) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
-    let [i0, j0, i1, j1] = [low.x, low.y, high.x, high.y].map(|v| v.floor() as i64);
-    (i0..=i1).flat_map(move |i| (j0..=j1).map(move |j| (level, i, j)))
-}
-
-/// Triangles in a square.
-fn of_square(sorted: &[(GridSquare, u32)], square: GridSquare) -> impl Iterator<Item = usize> {
-    let first = sorted.partition_point(|(other, _)| *other < square);
-    sorted[first..].iter().take_while(move |(other, _)| *other == square).map(|&(_, triangle)| triangle as usize)
-}
-
-/// Squares of size 2^level are as large as the box of a triangle, or up to twice.
-fn level(corners: &[Point; 3]) -> i32 {
-    let [a, b, c] = corners;
-    let size = (a.sup(b).sup(c) - a.inf(b).inf(c)).amax();
-    // The exponent of a normal number: what `log2` and `ceil` give.
-    let exponent = (size.to_bits() >> 52) as i32 - 1023;
-    exponent + i32::from(size.to_bits() << 12 != 0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -203,16 +145,5 @@ mod tests {
         assert!(!strip.meets(&small) && strip.meets(&mesh.corners(0)), "one triangle is on the boundary");
         let all = BoundaryStrip::new(&mesh, &vec![0; 100 * mesh.triangles.len()]);
         assert!(all.marked.is_empty() && all.meets(&small), "too many marks");
-    }
-
-    #[test]
-    fn pairs_that_are_looked_at_grow_as_the_number_of_triangles() {
-        let looks = |count: usize| {
-            let mesh = crate::mesh::samples::columns(count, 1.0);
-            let grids = BoundaryGrids::new(&mesh, &Vec::from_iter(0..mesh.triangles.len()));
-            (0..mesh.triangles.len()).map(|triangle| grids.near(&mesh.corners(triangle)).count()).sum::<usize>()
-        };
-        let [few, many] = [looks(500), looks(2000)];
-        assert!(many <= 4 * few + 100 && many < 20 * 4000, "{few} and {many} looks");
     }
 }

@@ -7,9 +7,8 @@
 
 use crate::geometry::{Point, cross};
 use crate::mesh::located::Located;
-use crate::mesh::macro_mesh::{MacroMesh, MacroTriangle, smallest_angle};
+use crate::mesh::macro_mesh::{MacroMesh, MacroTriangle, NamedPoint, Spot, smallest_angle};
 use crate::mesh::refined::bisection::BisectedMesh;
-use crate::mesh::spot::{NamedPoint, Spot};
 use std::collections::HashSet;
 
 /// The smallest angle (radians, 20 degrees) that is good enough, whatever the mesh has.

@@ -1,8 +1,7 @@
 //! The mesh of the bodies alone, as a file may hold it.
 
 use crate::mesh::kept::Kept;
-use crate::mesh::macro_mesh::{Boundary, MacroEdge, MacroMesh, MacroTriangle};
-use crate::mesh::spot::NamedPoint;
+use crate::mesh::macro_mesh::{Boundary, MacroEdge, MacroMesh, MacroTriangle, NamedPoint};
 
 impl MacroMesh {
     /// The mesh without the layers of rigid tools, which come after all bodies of the file: a case adds its own.

@@ -10,8 +10,7 @@ use rustix::io::Errno;
 use rustix::process::{Pid, test_kill_process};
 use rustix::system::uname;
 
-use super::entries::entries;
-use super::own_files::OwnFiles;
+use super::own_files::{OwnFiles, entries};
 use crate::output::error::OutputError;
 
 /// Ending of a result under construction, or of one that it has just replaced.

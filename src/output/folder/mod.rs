@@ -1,12 +1,11 @@
 //! A result folder appears whole or not at all.
 
-mod entries;
 mod leftover;
 mod mounted;
 mod own_files;
 
-pub use entries::{entries, remove_if_there};
 pub use leftover::recover;
+pub use own_files::{entries, remove_if_there};
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};

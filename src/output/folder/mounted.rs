@@ -5,9 +5,8 @@ use std::path::Path;
 
 use rustix::fs::{AtFlags, CWD, StatxAttributes, StatxFlags, statx};
 
-use super::entries::{entries, remove_if_there};
 use super::leftover::{carry_over, free_name, is_equal};
-use super::own_files::{OwnFiles, SUMMARY, names_within};
+use super::own_files::{OwnFiles, SUMMARY, entries, names_within, remove_if_there};
 use crate::output::error::OutputError;
 
 /// What a file system has of itself in its first folder.

@@ -1,11 +1,10 @@
-//! Which files of a folder its result has written: all others are the user's.
+//! What a folder holds, how it goes, and which of its files its result has written: all others are the user's.
 
 use serde_json::Value;
 use std::collections::BTreeSet;
-use std::fs;
+use std::fs::{self, DirEntry};
 use std::path::{Path, PathBuf};
 
-use super::entries::entries;
 use crate::output::error::OutputError;
 
 /// The file that makes a folder a result.
@@ -65,6 +64,27 @@ pub fn names_within(folder: &Path) -> Result<Vec<String>, OutputError> {
     }
     names.sort();
     Ok(names)
+}
+
+/// Everything in a folder.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn entries(folder: &Path) -> Result<Vec<DirEntry>, OutputError> {
+    fs::read_dir(folder).and_then(Iterator::collect).map_err(OutputError::io("read the folder", folder))
+}
+
+/// Removes a file, or a folder with all in it, if it is there.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn remove_if_there(path: &Path) -> Result<(), OutputError> {
+    let removed = match (path.exists(), path.is_dir()) {
+        (false, _) => Ok(()),
+        (true, true) => fs::remove_dir_all(path),
+        (true, false) => fs::remove_file(path),
+    };
+    removed.map_err(OutputError::io("remove", path))
 }
 
 #[cfg(test)]

@@ -3,8 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::numbers::number;
-use super::page::ReportPage;
+use super::page::{ReportPage, number};
 use crate::element::{MEASURES, StressMeasure};
 use crate::output::markup::{figure, paragraph, subsection};
 use crate::output::plot::{number_text, stress_file};

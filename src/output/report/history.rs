@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use super::drawings::drawing;
-use super::numbers::{count, number, trust_word};
-use super::page::{ReportPage, TableColumn, long_table, table_of};
+use super::page::{ReportPage, TableColumn, count, long_table, number, table_of, trust_word};
 use super::verdict::word;
 use crate::output::markup::{UNKNOWN, subsection};
 use crate::output::summary::{AccuracyStep, StepSummary};

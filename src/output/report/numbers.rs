@@ -4,49 +4,17 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::page::{ReportPage, TableColumn, long_table, table_of};
+use super::page::{ReportPage, TableColumn, count, exact, long_table, number, table_of, trust_word};
 use crate::output::data::CONTACTS;
-use crate::output::markup::{NOT_TRUSTED, TRUSTED, UNKNOWN, UNTOLD, paragraph, subsection, table};
-use crate::output::plot::{number_text, number_to};
+use crate::output::markup::{UNKNOWN, paragraph, subsection, table};
+use crate::output::plot::number_text;
 use crate::output::summary::{ContactSummary, ProbeSummary, RigidSummary, Summary};
 
 /// Intervals of one contact that are named one by one.
 const MOST_INTERVALS: usize = 6;
 
-/// A number for a cell, with four digits.
-pub fn number(number: Option<f64>) -> String {
-    known(number, number_text)
-}
-
-/// A number of the solution itself for a cell.
-fn exact(number: Option<f64>) -> String {
-    known(number, |number| number_to(6, number))
-}
-
-fn known(number: Option<f64>, text: impl Fn(f64) -> String) -> String {
-    number.filter(|number| number.is_finite()).map_or(UNKNOWN.into(), text)
-}
-
-/// A count in groups of three digits.
-pub fn count(count: Option<u64>) -> String {
-    let Some(count) = count else { return UNKNOWN.into() };
-    let digits = count.to_string();
-    let groups: Vec<String> = digits.as_bytes().rchunks(3).rev().map(|group| String::from_utf8_lossy(group).into()).collect();
-    groups.join("\u{a0}")
-}
-
 fn pair(vector: Option<[f64; 2]>) -> [String; 2] {
     [0, 1].map(|axis| exact(vector.map(|vector| vector[axis])))
-}
-
-/// Whether something can be trusted, in words that have a colour.
-pub fn trust_word(trust: Option<bool>) -> String {
-    match trust {
-        Some(true) => TRUSTED,
-        Some(false) => NOT_TRUSTED,
-        None => UNTOLD,
-    }
-    .into()
 }
 
 /// What each contact carries, and where it is closed.

@@ -1,6 +1,7 @@
-//! What a page is made of.
+//! What a page is made of, its tables and what stands in their cells.
 
-use crate::output::markup::{paragraph, table};
+use crate::output::markup::{NOT_TRUSTED, TRUSTED, UNKNOWN, UNTOLD, paragraph, table};
+use crate::output::plot::{number_text, number_to};
 use crate::output::summary::Summary;
 use std::collections::BTreeSet;
 
@@ -60,6 +61,38 @@ pub fn table_of<T>(columns: &[TableColumn<T>], things: impl Iterator<Item = T>, 
     let header: Vec<&str> = columns.iter().map(|(head, _)| *head).collect();
     let rows: Vec<Vec<String>> = things.map(row).collect();
     if let Some(place) = place { long_table(&header, rows, place) } else { table(&header, &rows) }
+}
+
+/// A number for a cell, with four digits.
+pub fn number(number: Option<f64>) -> String {
+    known(number, number_text)
+}
+
+/// A number of the solution itself for a cell.
+pub fn exact(number: Option<f64>) -> String {
+    known(number, |number| number_to(6, number))
+}
+
+fn known(number: Option<f64>, text: impl Fn(f64) -> String) -> String {
+    number.filter(|number| number.is_finite()).map_or(UNKNOWN.into(), text)
+}
+
+/// A count in groups of three digits.
+pub fn count(count: Option<u64>) -> String {
+    let Some(count) = count else { return UNKNOWN.into() };
+    let digits = count.to_string();
+    let groups: Vec<String> = digits.as_bytes().rchunks(3).rev().map(|group| String::from_utf8_lossy(group).into()).collect();
+    groups.join("\u{a0}")
+}
+
+/// Whether something can be trusted, in words that have a colour.
+pub fn trust_word(trust: Option<bool>) -> String {
+    match trust {
+        Some(true) => TRUSTED,
+        Some(false) => NOT_TRUSTED,
+        None => UNTOLD,
+    }
+    .into()
 }
 
 /// A value that a case expects.

@@ -1,7 +1,6 @@
 //! The largest stress of each body, and whether it can be believed.
 
-use super::numbers::{number, trust_word};
-use super::page::{ReportPage, long_table};
+use super::page::{ReportPage, long_table, number, trust_word};
 use crate::output::markup::{UNKNOWN, paragraph};
 use crate::output::plot::number_to;
 use crate::output::summary::{BodySummary, Status, capital};

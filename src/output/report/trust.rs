@@ -1,7 +1,6 @@
 //! What can be trusted of a result, and how large its errors are thought to be.
 
-use super::numbers::{number, trust_word};
-use super::page::{ReportPage, TableColumn, table_of};
+use super::page::{ReportPage, TableColumn, number, table_of, trust_word};
 use crate::output::markup::{UNKNOWN, list, paragraph, subsection};
 use crate::output::plot::number_text;
 use crate::output::summary::{ContactEstimate, ContactSummary, Status, ZoneSummary};

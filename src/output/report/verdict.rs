@@ -1,7 +1,6 @@
 //! What everybody wants to know first.
 
-use super::numbers::number;
-use super::page::{ExpectedValue, ReportPage, TableColumn, table_of};
+use super::page::{ExpectedValue, ReportPage, TableColumn, number, table_of};
 use crate::output::markup::{HOLDS, MISSED, UNKNOWN, escape, folded, paragraph, subsection, table};
 use crate::output::plot::number_text;
 use crate::output::summary::{GoalSummary, MOST_TOLD, Status, Summary, WORST, capital, clauses, listed};

@@ -55,7 +55,7 @@ pub struct Following {
     /// Boundaries after which what there is stands, however far it would still move.
     most: usize,
     /// Relative residual of the last solve.
-    tolerance: f64,
+    pub tolerance: f64,
     displacement: Vec<f64>,
     active: Vec<bool>,
     ends: Vec<[FoundEnd; 2]>,

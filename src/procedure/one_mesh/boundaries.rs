@@ -13,9 +13,8 @@ use crate::multigrid::{Elastic, Interpolation, interpolations};
 use crate::petsc::options;
 use crate::procedure::boundary::{BoundaryStep, Following, NextBoundary, carried, standing, start_from};
 use crate::procedure::ending::{Ending, Failure, Standing};
-use crate::procedure::observer::{Event, Work};
 use crate::procedure::sets::{ContactLoop, LoopOutcome, LoopPosition, Pass};
-use crate::procedure::settings::Procedure;
+use crate::procedure::settings::{Event, Procedure, Work};
 use crate::system::{Preconditioning, SaddlePoint, Start, System, Tolerance};
 use std::rc::Rc;
 
@@ -40,14 +39,9 @@ pub struct OneMesh<'p> {
 pub struct OnMesh {
     pub solution: Solution,
     pub ending: Ending,
-    pub passes: Vec<Pass>,
-    pub boundaries: Vec<BoundaryStep>,
-    /// Whether its active set was found by rising energy only.
-    pub ascended: bool,
-    /// The preconditioner that it needed.
-    pub preconditioning: Preconditioning,
     /// What solved it, in words.
     pub solver: String,
+    pub history: MeshHistory,
 }
 
 /// What no contact boundary changes.
@@ -58,12 +52,13 @@ struct Bodies {
 }
 
 /// What was done on a mesh so far, and what it took.
-struct MeshHistory {
-    passes: Vec<Pass>,
-    boundaries: Vec<BoundaryStep>,
+pub struct MeshHistory {
+    pub passes: Vec<Pass>,
+    pub boundaries: Vec<BoundaryStep>,
     /// Whether an active set was found by rising energy only.
-    ascended: bool,
-    preconditioning: Preconditioning,
+    pub ascended: bool,
+    /// The preconditioner that it needed.
+    pub preconditioning: Preconditioning,
 }
 
 /// What follows from the solves on one boundary.
@@ -98,10 +93,11 @@ impl OneMesh<'_> {
         let first = LoopPosition { boundary: 1, passes: 0, is_hard: self.is_hard };
         let LoopOutcome { solution, ending, passes, ascended } = self.sets(&mut system, start, self.tolerance, first)?;
         let solution = self.finished(&mut system, solution, &ending, ascended)?;
-        let (preconditioning, solver) = (system.preconditioning(), system.solver_name().to_string());
+        let history = MeshHistory { passes, boundaries: Vec::new(), ascended, preconditioning: system.preconditioning() };
+        let solver = system.solver_name().to_string();
         drop(system);
         settle(problem, &solution, self.procedure.session)?;
-        Ok(OnMesh { solution, ending, passes, boundaries: Vec::new(), ascended, preconditioning, solver })
+        Ok(OnMesh { solution, ending, solver, history })
     }
 
     /// Solves, lets the boundaries follow, and solves again, until everything stands. **Collective**
@@ -117,16 +113,14 @@ impl OneMesh<'_> {
         self.begin(Some(following.tolerances()));
         let mut history = MeshHistory { passes: Vec::new(), boundaries: Vec::new(), ascended: false, preconditioning };
         let mut is_last = false;
-        for number in 1.. {
+        loop {
             let system = self.system(problem, bodies, history.preconditioning)?;
-            let on_boundary = BoundaryLoop { mesh: self, following: &mut following, history: &mut history, number, exact };
-            let (solution, solver, after) = on_boundary.solve(system, start.take(), is_last)?;
+            let (solution, solver, after) = self.on_boundary(system, start.take(), is_last, &mut following, &mut history)?;
             match after {
                 After::Ended(ending) => {
                     problem.contacts.iter_mut().zip(following.found).for_each(|(contact, ends)| contact.found = Some(ends));
                     settle(problem, &solution, self.procedure.session)?;
-                    let MeshHistory { passes, boundaries, ascended, preconditioning } = history;
-                    return Ok(OnMesh { solution, ending, passes, boundaries, ascended, preconditioning, solver });
+                    return Ok(OnMesh { solution, ending, solver, history });
                 }
                 After::Moved { contacts, motion, start: next, is_near } => {
                     let _stage = self.procedure.observer.enter(Work::Contact);
@@ -135,7 +129,6 @@ impl OneMesh<'_> {
                 }
             }
         }
-        unreachable!("boundaries are given up after a while")
     }
 
     /// The system of a solution once more, for other right-hand sides. **Collective**
@@ -229,68 +222,62 @@ impl OneMesh<'_> {
         }
         Ok(solution)
     }
-}
 
-/// The solves on one boundary of those that follow.
-struct BoundaryLoop<'l, 'p> {
-    mesh: &'l OneMesh<'p>,
-    following: &'l mut Following,
-    history: &'l mut MeshHistory,
-    /// Number of the boundary, from 1.
-    number: usize,
-    /// Residual that the last solve goes to.
-    exact: f64,
-}
-
-impl BoundaryLoop<'_, '_> {
-    /// Solves on the way, unless the solve is the last one, and again as the last one if everything stands: the solution, what solved
-    /// it, in words, and what follows. **Collective**
-    fn solve(
-        mut self,
+    /// The solves on one boundary of those that follow: on the way, unless the solve is the last one, and again as the last one if
+    /// everything stands. The solution, what solved it, in words, and what follows. **Collective**
+    fn on_boundary(
+        &self,
         mut system: System,
-        start: Option<Start>,
+        mut start: Option<Start>,
         is_last: bool,
+        following: &mut Following,
+        history: &mut MeshHistory,
     ) -> Result<(Solution, String, After), SystemError> {
-        let (mut start, mut is_last) = (start, is_last || self.exact >= ON_THE_WAY);
+        let exact = following.tolerance;
+        let mut is_last = is_last || exact >= ON_THE_WAY;
         loop {
-            let tolerance = Tolerance::Residual(if is_last { self.exact } else { ON_THE_WAY });
-            let position = LoopPosition { boundary: self.number, passes: self.history.passes.len(), is_hard: self.mesh.is_hard };
-            let LoopOutcome { solution, ending, passes, ascended } =
-                self.mesh.sets(&mut system, start.take(), tolerance, position)?;
-            self.history.passes.extend(passes);
+            let tolerance = Tolerance::Residual(if is_last { exact } else { ON_THE_WAY });
+            let boundary = history.boundaries.len() + 1;
+            let position = LoopPosition { boundary, passes: history.passes.len(), is_hard: self.is_hard };
+            let LoopOutcome { solution, ending, passes, ascended } = self.sets(&mut system, start.take(), tolerance, position)?;
+            history.passes.extend(passes);
             let after = match ending {
                 Ending::NotConverged(_) => After::Ended(ending),
-                Ending::Converged(standing) => match self.next(system.problem(), &solution, standing, is_last)? {
-                    Some(after) => after,
-                    None => {
-                        // The boundary is right, but it was found with a solve on the way.
-                        (start, is_last) = (Some(start_from(&solution)), true);
-                        continue;
+                Ending::Converged(standing) => {
+                    match self.next(system.problem(), &solution, standing, is_last, following, history)? {
+                        Some(after) => after,
+                        None => {
+                            // The boundary is right, but it was found with a solve on the way.
+                            (start, is_last) = (Some(start_from(&solution)), true);
+                            continue;
+                        }
                     }
-                },
+                }
             };
             let solution = match &after {
-                After::Ended(ending) => self.mesh.finished(&mut system, solution, ending, ascended)?,
+                After::Ended(ending) => self.finished(&mut system, solution, ending, ascended)?,
                 After::Moved { .. } => solution,
             };
-            self.history.ascended |= ascended;
-            self.history.preconditioning = system.preconditioning();
+            history.ascended |= ascended;
+            history.preconditioning = system.preconditioning();
             return Ok((solution, system.solver_name().to_string(), after));
         }
     }
 
     /// What follows from a solution; nothing if it is to be solved once more, as the last one. **Collective**
     fn next(
-        &mut self,
+        &self,
         problem: &Discretisation,
         solution: &Solution,
         within: Standing,
         is_last: bool,
+        following: &mut Following,
+        history: &mut MeshHistory,
     ) -> Result<Option<After>, SystemError> {
-        let Procedure { session, observer, .. } = self.mesh.procedure;
+        let Procedure { session, observer, .. } = self.procedure;
         let followed = {
             let _stage = observer.enter(Work::Contact);
-            self.following.next(problem, solution, self.number, session)
+            following.next(problem, solution, history.boundaries.len() + 1, session)
         };
         let (step, next) = match followed {
             Ok(followed) => followed,
@@ -302,14 +289,14 @@ impl BoundaryLoop<'_, '_> {
         if matches!(next, NextBoundary::Stands(_)) && !is_last {
             return Ok(None);
         }
-        if self.mesh.is_last {
+        if self.is_last {
             observer.observe(Event::Placed(&step));
         }
         let is_near = step.moved.is_some_and(|way| way < NEARLY);
-        self.history.boundaries.push(step);
+        history.boundaries.push(step);
         Ok(Some(match next {
             NextBoundary::Stands(way) => {
-                After::Ended(Ending::Converged(standing(&problem.contacts, &self.history.boundaries, way, within)))
+                After::Ended(Ending::Converged(standing(&problem.contacts, &history.boundaries, way, within)))
             }
             NextBoundary::GivenUp(failure) => After::Ended(Ending::NotConverged(failure)),
             NextBoundary::Again(contacts, motion) => {

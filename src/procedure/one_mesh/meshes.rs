@@ -5,11 +5,10 @@ use crate::procedure::at_rest::AtRest;
 use crate::procedure::coarse_solution::CoarseSolution;
 use crate::procedure::ending::{Ending, Failure};
 use crate::procedure::estimates::{Difference, Estimate};
-use crate::procedure::observer::{Event, Work};
 use crate::procedure::one_mesh::begun::Begun;
-use crate::procedure::one_mesh::boundaries::{OnMesh, OneMesh};
+use crate::procedure::one_mesh::boundaries::{MeshHistory, OnMesh, OneMesh};
 use crate::procedure::predecessor::Predecessor;
-use crate::procedure::settings::Procedure;
+use crate::procedure::settings::{Event, Procedure, Work};
 use crate::procedure::solved::{CoarseSolve, Solved};
 use crate::system::{Preconditioning, SolverChoice, Start, Tolerance};
 
@@ -26,8 +25,11 @@ const COARSE_FOR_BOUNDARIES: f64 = 1e-8;
 const COARSE_FOR_ACCURACY: f64 = 1e-8;
 
 /// What is known before the mesh of the case is solved.
-#[derive(Default)]
 struct Coarser<'p> {
+    /// The preconditioner to begin with.
+    first: Preconditioning,
+    /// What is to be said of it, before the first solve.
+    words: Option<String>,
     /// The solution on the adapted mesh before, if there is any.
     predecessor: Option<&'p Predecessor<'p>>,
     /// The solution on the last refinement, if there is any.
@@ -43,13 +45,6 @@ impl Coarser<'_> {
         let before = before.map(|before| &before.contact).or(self.predecessor.map(|before| &before.contact));
         before.map_or((Preconditioning::Sweep, false), |before| (before.preconditioning, before.is_hard))
     }
-}
-
-/// The linear solver to begin with.
-struct First {
-    preconditioning: Preconditioning,
-    /// What is to be said of it, before the first solve.
-    words: Option<String>,
 }
 
 impl Procedure<'_> {
@@ -77,12 +72,12 @@ impl Procedure<'_> {
             Self::look(&scene, self.session.rank())?
         };
         self.observer.observe(Event::AtRest { scene: &scene, at_rest: &at_rest });
-        let mut first = self.first_solver(&scene, 2 * at_rest.numbering.node_count());
-        let mut coarser = Coarser { predecessor, ..Coarser::default() };
+        let (first, words) = self.first_solver(&scene, 2 * at_rest.numbering.node_count());
+        let mut coarser = Coarser { first, words, predecessor, found: None, differences: Vec::new(), solves: Vec::new() };
         let take_up = |refine: usize| self.observer.observe(Event::Refinement { refine, last: scene.refine });
         for times in (1..=COARSER.min(scene.refine)).rev() {
             take_up(scene.refine - times);
-            match self.coarse_mesh(scene.coarser(times), &mut first, &mut coarser) {
+            match self.coarse_mesh(scene.coarser(times), &mut coarser) {
                 // The mesh is too coarse for the scene; the case's own may do.
                 Err(SystemError::Case(_)) => coarser.differences.clear(),
                 outcome => outcome?,
@@ -90,7 +85,7 @@ impl Procedure<'_> {
         }
         take_up(scene.refine);
         match self.begun_from(scene, coarser.found.as_ref(), coarser.predecessor)? {
-            Begun::Ready(problem, start) => self.solve_last(*problem, start, first, coarser),
+            Begun::Ready(problem, start) => self.solve_last(*problem, start, coarser),
             Begun::Free(problem, words) => {
                 Ok(Solved::nothing(*problem, Ending::NotConverged(Failure::NotHeld(words)), coarser.solves))
             }
@@ -106,23 +101,23 @@ impl Procedure<'_> {
     }
 
     /// What the choice of the case comes to; what "auto" does is said with its reason.
-    fn first_solver(&self, scene: &Scene, unknowns: usize) -> First {
+    fn first_solver(&self, scene: &Scene, unknowns: usize) -> (Preconditioning, Option<String>) {
         let (levels, ratios) = (scene.refine + 1, &scene.mesh.ratios);
         if self.choice != SolverChoice::Auto {
-            return First { preconditioning: Preconditioning::of(levels, ratios), words: None };
+            return (Preconditioning::of(levels, ratios), None);
         }
         let (preconditioning, words) = Preconditioning::first(levels, ratios, unknowns);
-        First { preconditioning, words: Some(words) }
+        (preconditioning, Some(words))
     }
 
     /// Solves a coarser mesh, if it holds the bodies, and keeps what it tells. **Collective**
-    fn coarse_mesh(&self, scene: Scene, first: &mut First, coarser: &mut Coarser) -> Result<(), SystemError> {
+    fn coarse_mesh(&self, scene: Scene, coarser: &mut Coarser) -> Result<(), SystemError> {
         let (refine, before) = (scene.refine, coarser.found.take());
         // Of a body that is free the finest mesh, which begins in the same way, says it.
         let Begun::Ready(mut problem, start) = self.begun_from(scene, before.as_ref(), coarser.predecessor)? else {
             return Ok(());
         };
-        self.say(first);
+        self.say(coarser);
         let (needed, is_hard) = coarser.needed(before.as_ref());
         let preconditioning = needed.max(Preconditioning::of(refine + 1, &problem.scene.mesh.ratios));
         let tolerance = Tolerance::Residual(self.tolerance.residual().max(if self.accuracy.is_some() {
@@ -135,9 +130,10 @@ impl Procedure<'_> {
         let found =
             OneMesh { procedure: self, tolerance, is_last: false, is_hard }.solve(&mut problem, start, preconditioning)?;
         let (unknowns, converged) = (problem.unknown_count(), found.ending.is_converged());
-        let iterations = found.passes.iter().map(|pass| pass.krylov_iterations).collect();
+        let MeshHistory { passes, ascended, preconditioning, .. } = &found.history;
+        let iterations = passes.iter().map(|pass| pass.krylov_iterations).collect();
         let solve = CoarseSolve { refine, unknowns, iterations };
-        let (active, passes) = (&found.solution.active, &found.passes);
+        let active = &found.solution.active;
         self.observer.observe(Event::Coarse { solve: &solve, active, passes, converged });
         coarser.solves.push(solve);
         if converged {
@@ -145,7 +141,7 @@ impl Procedure<'_> {
             if let Some(before) = &before {
                 coarser.differences.push(Difference::new(&problem, &found.solution, before, self.accuracy, self.session)?);
             }
-            let needed = (found.preconditioning, is_hard || found.ascended);
+            let needed = (*preconditioning, is_hard || *ascended);
             coarser.found = Some(CoarseSolution::new(*problem, found.solution, needed, self.session)?);
         }
         Ok(())
@@ -184,17 +180,11 @@ impl Procedure<'_> {
     }
 
     /// Solves the mesh of the case. **Collective**
-    fn solve_last(
-        &self,
-        mut problem: Discretisation,
-        start: Option<Start>,
-        mut first: First,
-        coarser: Coarser,
-    ) -> Result<Solved, SystemError> {
-        self.say(&mut first);
+    fn solve_last(&self, mut problem: Discretisation, start: Option<Start>, mut coarser: Coarser) -> Result<Solved, SystemError> {
+        self.say(&mut coarser);
         let (needed, is_hard) = coarser.needed(coarser.found.as_ref());
-        let preconditioning = needed.max(first.preconditioning);
-        let Coarser { found: coarse, mut differences, solves, predecessor } = coarser;
+        let preconditioning = needed.max(coarser.first);
+        let Coarser { found: coarse, mut differences, solves, predecessor, .. } = coarser;
         let tolerance = if start.is_some() { self.tolerance } else { Tolerance::Residual(self.tolerance.residual()) };
         let found = OneMesh { procedure: self, tolerance, is_last: true, is_hard }.solve(&mut problem, start, preconditioning)?;
         if let Some(coarse) = &coarse {
@@ -207,7 +197,8 @@ impl Procedure<'_> {
         };
         let sum = |own: f64| self.session.sum([own])[0];
         let estimate = Estimate::new(&differences, shares_left, problem.scene.order, found.solution.residual, sum);
-        let OnMesh { solution, ending, passes, boundaries, preconditioning, solver, ascended } = found;
+        let OnMesh { solution, ending, solver, history } = found;
+        let MeshHistory { passes, boundaries, ascended, preconditioning } = history;
         Ok(Solved {
             problem,
             solution,
@@ -225,8 +216,8 @@ impl Procedure<'_> {
         })
     }
 
-    fn say(&self, first: &mut First) {
-        if let Some(words) = first.words.take() {
+    fn say(&self, coarser: &mut Coarser) {
+        if let Some(words) = coarser.words.take() {
             self.observer.observe(Event::Solver(&words));
         }
     }

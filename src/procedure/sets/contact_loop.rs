@@ -3,10 +3,9 @@
 use crate::contact::{ActiveSet, GapChoice, SetChange};
 use crate::discretisation::{Contact, Solution, SystemError, adrift, bilateral, few_that_hold, not_held};
 use crate::procedure::ending::{Ending, Failure, Standing};
-use crate::procedure::sets::change::relative_change;
 use crate::procedure::sets::contact_state::ContactState;
 use crate::procedure::sets::first_set::{carried_set, first_set};
-use crate::procedure::sets::pass::Pass;
+use crate::procedure::sets::pass::{Pass, relative_change};
 use crate::procedure::sets::residual_scale::{LOOSE, last_residual, share, share_of_forces};
 use crate::procedure::sets::unsettled::{going_on, places};
 use crate::system::{LinearEnding, LinearSolve, MOST_ROUNDING, Start, System, Tolerance};

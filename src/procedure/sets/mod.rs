@@ -1,6 +1,5 @@
 //! One contact boundary: one active set after the other, until one stands.
 
-mod change;
 mod contact_loop;
 mod contact_state;
 mod first_set;
@@ -8,6 +7,5 @@ mod pass;
 mod residual_scale;
 mod unsettled;
 
-pub(crate) use change::relative_change;
 pub use contact_loop::{ContactLoop, LoopOutcome, LoopPosition};
-pub use pass::Pass;
+pub use pass::{Pass, relative_change};

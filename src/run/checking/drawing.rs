@@ -7,11 +7,10 @@ use crate::contact::Pair;
 use crate::element::Plane;
 use crate::geometry::{Formula, Point};
 use crate::mesh::{Boundary, MacroMesh, MacroTriangle, Stretch};
-use crate::output::Units;
 use crate::output::plot::{
     BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure, bounds, number_text,
 };
-use crate::run::outcome::RunError;
+use crate::output::{RunError, Units};
 use crate::run::reading::scene;
 use crate::run::words::{title, units};
 use std::collections::HashMap;

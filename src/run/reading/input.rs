@@ -2,8 +2,8 @@
 
 use crate::case::{Case, Inputs, fingerprint, read_text};
 use crate::mesh::read_bytes;
+use crate::output::RunError;
 use crate::petsc::Session;
-use crate::run::outcome::RunError;
 use crate::run::reading::scene;
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! Options of PETSc that a run refuses.
 
+use crate::output::RunError;
 use crate::petsc::{Session, options};
-use crate::run::outcome::RunError;
 
 /// Outer methods that the systems can be solved with; what else PETSc has wants another side, norm or start.
 const METHODS: &str =

@@ -5,10 +5,10 @@ use crate::case::{Case, CaseError, LoadStep};
 use crate::discretisation::{self, Scene};
 use crate::element::Plane;
 use crate::geometry::{Coordinates, Formula, Point, Rounded};
-use crate::mesh::{MacroMesh, Partition, parse_gmsh, read_bytes, touching_surfaces};
+use crate::mesh::{MacroMesh, Partition, each_once, parse_gmsh, read_bytes, touching_surfaces};
+use crate::output::RunError;
 use crate::petsc::Session;
 use crate::procedure::Procedure;
-use crate::run::outcome::RunError;
 use crate::run::reading::checks::{check_exact, check_means, check_moduli};
 use crate::run::reading::names::{Names, together, unknown_part};
 use std::collections::HashMap;
@@ -246,9 +246,7 @@ fn check_points(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
         let own = |triangle: &usize| mesh.region(name).is_some_and(|region| region.holds(&mesh.triangles[*triangle]));
         let holds = |triangle: &usize| mesh.locate(*triangle, Point::new(x, y)).is_some();
         let holding = (0..mesh.triangles.len()).filter(own).filter(holds);
-        let mut parts: Vec<&String> = holding.map(|k| &mesh.parts[mesh.triangles[k].part as usize].name).collect();
-        parts.sort();
-        parts.dedup();
+        let parts = each_once(holding.map(|k| &mesh.parts[mesh.triangles[k].part as usize].name));
         let words = match parts[..] {
             [] => format!("lies outside body \"{name}\"; move it inside"),
             [first, second, ..] if key.starts_with("probe.") => format!(

@@ -1,10 +1,9 @@
 //! A solution made into a summary, with its files.
 
 use crate::output::summary::{EstimateSummary, Status, Summary};
-use crate::output::{CONTACTS, contacts_table, write_text};
+use crate::output::{CONTACTS, RunError, contacts_table, write_text};
 use crate::procedure::{Solved, Work};
 use crate::recovery::Evaluation;
-use crate::run::outcome::RunError;
 use crate::run::summary::bodies::largest_stresses;
 use crate::run::summary::contact::contact;
 use crate::run::summary::whole::{described, with_fields};

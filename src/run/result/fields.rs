@@ -2,11 +2,11 @@
 
 use crate::element::{Order, von_mises};
 use crate::mesh::lattice::{self, Triangle};
+use crate::output::RunError;
 use crate::output::plot::{ContactZoom, DrawnEdge, Facet};
 use crate::output::vtk::{Piece, PieceNode, write_parallel, write_piece};
 use crate::petsc::Session;
 use crate::recovery::Evaluation;
-use crate::run::outcome::RunError;
 use std::collections::HashMap;
 use std::path::Path;
 

@@ -3,9 +3,9 @@
 use crate::case::LambdaExact;
 use crate::contact::SegmentRule;
 use crate::discretisation::Scene;
+use crate::output::RunError;
 use crate::petsc::StageGuard;
 use crate::procedure::{Event, Observer, Procedure, Solved, Work};
-use crate::run::outcome::RunError;
 use crate::run::reading::checks::check_pressures;
 use crate::run::telling::stages::Stages;
 use crate::run::telling::{interruption, progress};

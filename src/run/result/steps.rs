@@ -4,10 +4,9 @@
 use crate::case::LoadStep;
 use crate::discretisation::Scene;
 use crate::output::summary::{Status, StepSummary, Summary};
-use crate::output::{CONTACTS, OutputError, plot, steps_table, vtk, write_text};
+use crate::output::{CONTACTS, OutputError, RunError, plot, steps_table, vtk, write_text};
 use crate::procedure::{Procedure, Solved};
 use crate::run::Run;
-use crate::run::outcome::RunError;
 use crate::run::reading::checks::check_pressures;
 use crate::run::reading::scene;
 use crate::run::telling::interruption;

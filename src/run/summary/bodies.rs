@@ -2,10 +2,10 @@
 
 use crate::case::Case;
 use crate::geometry::Point;
+use crate::output::RunError;
 use crate::output::summary::{BodySummary, ContactSummary, Status, Summary, listed};
 use crate::procedure::Solved;
 use crate::recovery::Evaluation;
-use crate::run::outcome::RunError;
 use crate::run::verdict::largest_stress::{PartStress, stress_doubt};
 
 /// The largest von Mises stress of each body that is no rigid tool, by its name, in the order of the mesh: of a solution with this

@@ -5,13 +5,14 @@ use crate::accuracy::ProbePoint;
 use crate::case::Case;
 use crate::element::{Order, Plane};
 use crate::geometry::Point;
+use crate::output::RunError;
 use crate::output::summary::{
     BalanceSummary, Energy, Mesh, ProbeSummary, RigidSummary, SolverSummary, Summary, SupportSummary, Unknowns,
 };
 use crate::petsc::versions;
 use crate::procedure::Solved;
 use crate::recovery::Evaluation;
-use crate::run::outcome::{RunError, outside};
+use crate::run::outcome::outside;
 use crate::run::words::units;
 use std::collections::BTreeMap;
 

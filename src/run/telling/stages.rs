@@ -1,7 +1,7 @@
 //! The stages of a run.
 
+use crate::output::RunError;
 use crate::petsc::{Session, Stage};
-use crate::run::outcome::RunError;
 
 /// Stages of a run, as the summary times them.
 pub struct Stages {

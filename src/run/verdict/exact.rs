@@ -3,8 +3,9 @@
 use crate::case::{Case, ExpectedAt, LambdaExact};
 use crate::geometry::Point;
 use crate::mesh::Region;
+use crate::output::RunError;
 use crate::recovery::Evaluation;
-use crate::run::outcome::{RunError, outside};
+use crate::run::outcome::outside;
 use crate::run::reading::checks::has_values;
 use std::collections::BTreeMap;
 

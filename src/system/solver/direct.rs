@@ -1,9 +1,8 @@
 //! The direct solver: MUMPS on the plain system.
 
 use super::field_split::replace_action;
-use super::operators::set_plain_operators;
 use super::options::Options;
-use super::prepared::Prepared;
+use super::prepared::{Prepared, set_plain_operators};
 use crate::discretisation::{Form, SystemError};
 use crate::petsc::{self, Krylov, Session};
 use crate::system::saddle_point::SaddlePoint;

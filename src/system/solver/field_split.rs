@@ -3,10 +3,9 @@
 use super::block_triangle::BlockTriangle;
 use super::bordered::Bordered;
 use super::ladder::Rung;
-use super::operators::set_operators;
 use super::options::{FACTOR, FIELD_SPLIT, MOST_REDUNDANT, Options, REDUNDANT_FACTOR, is_split_changed, lambda_options};
 use super::preconditioning::Preconditioning;
-use super::prepared::Prepared;
+use super::prepared::{Prepared, set_operators};
 use crate::discretisation::{Form, SystemError};
 use crate::multigrid::{Cycle, GalerkinLevels, Interpolation, Stiffness, takes_another_preconditioner};
 use crate::petsc::{self, Action, Krylov, Preconditioner, ReplacedAction, Session};

@@ -64,7 +64,6 @@ mod inf_sup;
 mod ladder;
 mod linear_solve;
 mod linear_solver;
-mod operators;
 mod options;
 mod preconditioning;
 mod prepared;

@@ -1,8 +1,7 @@
 //! A cursor over the lines and the binary numbers of a mesh file.
 
 use crate::geometry::Quote;
-use crate::mesh::MeshError;
-use crate::mesh::file_place::FilePlace;
+use crate::mesh::{FilePlace, MeshError};
 use std::borrow::Cow;
 use std::path::Path;
 use std::str::FromStr;

@@ -4,9 +4,8 @@ use std::fmt::{Arguments, Write};
 use std::path::Path;
 
 use super::frame::Frame;
-use super::letters::{Letters, TextAnchor};
 use super::outline::{line_data, tenths};
-use super::paint::Paint;
+use super::paint::{Letters, Paint, TextAnchor};
 use crate::output::data::write_text;
 use crate::output::error::OutputError;
 use crate::output::markup::escape;

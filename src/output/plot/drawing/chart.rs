@@ -3,8 +3,7 @@
 use super::canvas::Canvas;
 use super::frame::Frame;
 use super::legend::{LegendCell, ROW, draw_legend};
-use super::letters::{Letters, TextAnchor, text_width};
-use super::paint::{GREY, GRID, INK, Paint};
+use super::paint::{GREY, GRID, INK, Letters, Paint, TextAnchor, text_width};
 use super::scale::{LABEL, Scale};
 use crate::output::units::Unit;
 

@@ -3,8 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::canvas::Canvas;
-use super::letters::{Letters, text_width};
-use super::paint::{Colour, INK, LINES, Paint, WHITE};
+use super::paint::{Colour, INK, LINES, Letters, Paint, WHITE, text_width};
 
 /// Height of a row (pixels).
 pub const ROW: f64 = 19.0;

@@ -7,7 +7,6 @@ mod canvas;
 mod chart;
 mod frame;
 mod legend;
-mod letters;
 mod names;
 mod outline;
 mod paint;
@@ -18,9 +17,10 @@ pub use canvas::Canvas;
 pub use chart::{Chart, HEAD, PlotRoom, bounds, head, head_height, up_to_the_axis};
 pub use frame::Frame;
 pub use legend::{LegendCell, draw_mark, style_colour};
-pub use letters::{Letters, TextAnchor, text_width};
 pub use names::{Name, PlacedNames, Wish};
 pub use outline::{edges_around, loops, merged, path_data, tenths, unmatched};
-pub use paint::{BLUE, Colour, GREEN, GREY, INK, LINES, Paint, VERMILION, WHITE, diverging, viridis};
+pub use paint::{
+    BLUE, Colour, GREEN, GREY, INK, LINES, Letters, Paint, TextAnchor, VERMILION, WHITE, diverging, text_width, viridis,
+};
 pub use scale::{Axis, Scale, widened};
 pub use ticks::{cut_off, number_text, number_to, round_number};

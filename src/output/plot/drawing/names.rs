@@ -5,8 +5,7 @@ use std::iter::once;
 
 use super::canvas::Canvas;
 use super::frame::Frame;
-use super::letters::{Letters, TextAnchor, text_width};
-use super::paint::Paint;
+use super::paint::{Letters, Paint, TextAnchor, text_width};
 
 /// Places that are tried: how far from the anchor (pixels).
 const AWAY: [f64; 6] = [9.0, 18.0, 30.0, 46.0, 66.0, 92.0];

@@ -1,6 +1,6 @@
 //! Axes, and how values are spread along them.
 
-use super::letters::text_width;
+use super::paint::text_width;
 use super::ticks::Ticks;
 use crate::output::markup::escape;
 use crate::output::units::Unit;

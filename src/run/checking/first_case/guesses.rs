@@ -267,23 +267,15 @@ impl<'a> Guesses<'a> {
     }
 
     fn area(&self, body: usize) -> f64 {
-        let own = self.mesh.triangles.iter().filter(|triangle| triangle.body as usize == body);
-        let area = |corners: [u32; 3]| {
-            let [a, b, c] = corners.map(|corner| self.mesh.vertices[corner as usize]);
-            0.5 * cross(b - a, c - a)
-        };
-        own.map(|triangle| area(triangle.vertices)).sum()
+        let own = (0..self.mesh.triangles.len()).filter(|&triangle| self.mesh.triangles[triangle].body as usize == body);
+        own.map(|triangle| self.mesh.corners(triangle)).map(|[a, b, c]| 0.5 * cross(b - a, c - a)).sum()
     }
 }
 
 /// Bodies whose outlines lie close and face each other, with names or without.
 fn close_outlines(mesh: &MacroMesh) -> Vec<[usize; 2]> {
-    let outline = |body: usize| {
-        let outer = |edge: &u32| mesh.edges[*edge as usize].triangles[1].is_none() && mesh.body_beside(*edge) == body;
-        let edges = (0..mesh.edges.len() as u32).filter(outer).collect();
-        Boundary { name: mesh.bodies[body].clone(), edges, is_union: false }
-    };
-    let outlines = MacroMesh { boundaries: (0..mesh.bodies.len()).map(outline).collect(), ..mesh.clone() };
+    let outline = |(name, edges): (&String, Vec<u32>)| Boundary { name: name.clone(), edges, is_union: false };
+    let outlines = MacroMesh { boundaries: mesh.bodies.iter().zip(mesh.outer_edges()).map(outline).collect(), ..mesh.clone() };
     close_pairs(&outlines, &[]).into_iter().filter(|pair| pair.share() <= NEAR).map(|pair| pair.bodies).collect()
 }
 

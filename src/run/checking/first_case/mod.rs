@@ -9,9 +9,9 @@ mod named_curve;
 
 use crate::case::{Case, CaseError};
 use crate::mesh::{parse_gmsh, read_bytes, touching_surfaces};
+use crate::output::RunError;
 use crate::run::checking::check::check;
 use crate::run::checking::proposals::{TableNames, measure, proposed_supports, quoted, refused_contacts};
-use crate::run::outcome::RunError;
 use draft::Draft;
 use guesses::{Guesses, Press};
 use std::collections::HashMap;

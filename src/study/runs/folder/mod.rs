@@ -8,8 +8,7 @@ use std::time::Duration;
 use serde_json::Value;
 
 use crate::case::Inputs;
-use crate::output::{OutputError, entries, remove_if_there};
-use crate::study::error::StudyError;
+use crate::output::{OutputError, RunError, entries, remove_if_there};
 use crate::study::runs::ended::Ended;
 use crate::study::runs::record::{Identity, Record};
 
@@ -54,7 +53,7 @@ impl Folder {
     ///
     /// # Errors
     /// It holds another study, is in use or no folder, or the operating system refuses.
-    pub fn open(out: &Path, study: &str, force: bool) -> Result<Self, StudyError> {
+    pub fn open(out: &Path, study: &str, force: bool) -> Result<Self, RunError> {
         if out.exists() && !out.is_dir() {
             return Err(OutputError::NotAFolder(out.into()).into());
         }
@@ -70,14 +69,14 @@ impl Folder {
     }
 
     /// A study of another name is not mixed with this one, nor one without records, which an older mezha has made.
-    fn refuse_others(&self, study: &str) -> Result<(), StudyError> {
+    fn refuse_others(&self, study: &str) -> Result<(), RunError> {
         let other = match self.records.values().find(|record| record.study != study) {
             Some(record) => format!("the study {}", record.study),
             None if self.records.is_empty() && TABLES.iter().any(|name| self.out.join(name).exists()) => "an older study".into(),
             None => return Ok(()),
         };
         let words = "choose another folder with --out, or replace it with --force";
-        Err(StudyError::Input(format!("`{}` holds {other}; {words}", self.out.display())))
+        Err(RunError::Input(format!("`{}` holds {other}; {words}", self.out.display())))
     }
 
     /// Removes tables, results and records.
@@ -180,14 +179,14 @@ pub fn read_summary(result: &Path) -> Value {
 }
 
 /// Takes the folder for this program. Where the file system has no locks, nothing is locked.
-fn lock(out: &Path) -> Result<File, StudyError> {
+fn lock(out: &Path) -> Result<File, RunError> {
     let path = out.join(LOCK);
     let opened = File::options().read(true).write(true).create(true).truncate(false).open(&path);
     let file = opened.map_err(OutputError::io("open", &path))?;
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => {
             let words = "is in use by another `mezha study`, or by a run that one has left behind; wait for it, or end it";
-            Err(StudyError::Input(format!("`{}` {words}", out.display())))
+            Err(RunError::Input(format!("`{}` {words}", out.display())))
         }
         Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
     }

@@ -45,7 +45,7 @@ fn said(places: &[ResultPlace]) -> String {
 
 fn error(out: &Path, study: &str) -> String {
     match Folder::open(out, study, false) {
-        Err(StudyError::Input(words)) => words,
+        Err(RunError::Input(words)) => words,
         other => panic!("{other:?}"),
     }
 }
@@ -60,7 +60,7 @@ impl std::fmt::Debug for Folder {
 fn opened(out: &Path, name: &str, force: bool) -> Folder {
     for _ in 0..1000 {
         match Folder::open(out, name, force) {
-            Err(StudyError::Input(words)) if words.contains("is in use") => std::thread::sleep(Duration::from_millis(4)),
+            Err(RunError::Input(words)) if words.contains("is in use") => std::thread::sleep(Duration::from_millis(4)),
             outcome => return outcome.unwrap(),
         }
     }
