@@ -51,28 +51,6 @@ pub fn fractions(
     }
 }
 
-/// Lets segments end at these parameters, ascending: the end that is nearest moves there, unless it is one of Γ_C, and those between
-/// move in proportion. Where an edge between two materials ends λ may jump, which no segment across can follow.
-pub fn end_segments_at(boundary: &mut ContactBoundary, places: &[f64]) {
-    let (arcs, count) = (boundary.arcs().to_vec(), boundary.segments());
-    let mut fixed = vec![(0, 0.0)];
-    for arc in places.iter().map(|&t| boundary.arc(t)) {
-        let away = |&k: &usize| (arcs[k] - arc).abs();
-        let nearest = (0..=count).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0);
-        if nearest < count && fixed.last().is_some_and(|&(before, _)| before < nearest) {
-            fixed.push((nearest, arc));
-        }
-    }
-    fixed.push((count, arcs[count]));
-    let between = |ends: &[(usize, f64)]| {
-        let [(first, from), (last, to)] = [ends[0], ends[1]];
-        let scale = (to - from) / (arcs[last] - arcs[first]);
-        arcs[first..last].iter().map(|arc| (from + scale * (arc - arcs[first])) / arcs[count]).collect::<Vec<_>>()
-    };
-    let fractions: Vec<f64> = fixed.windows(2).flat_map(between).chain([1.0]).collect();
-    boundary.cut(&fractions);
-}
-
 /// Ends of `count` segments as fractions of the length. From the middle to the first and last end they shorten
 /// geometrically by the two factors of `grading`.
 fn graded(count: usize, grading: [f64; 2]) -> Vec<f64> {
@@ -242,25 +220,6 @@ mod tests {
         });
         let line = Curve::Line([[0.0, 1.0], [2.0, 1.0]]);
         (edges, ContactBoundary::new(line, [0.0, 1.0], Point::new(0.0, 1.0)))
-    }
-
-    #[test]
-    fn segments_end_where_they_are_to_and_keep_their_number_and_their_grading() {
-        let cut = |places: &[f64]| {
-            let (_, mut boundary) = graded_seam(0.5);
-            boundary.cut(&[0.0, 0.1, 0.2, 0.4, 0.7, 1.0]);
-            end_segments_at(&mut boundary, places);
-            boundary.knots().to_vec()
-        };
-        let same = |found: &[f64], wanted: &[f64]| {
-            assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12) && found.len() == wanted.len(), "{found:?}")
-        };
-        same(&cut(&[0.48]), &[0.0, 0.12, 0.24, 0.48, 0.48 + 0.26, 1.0]);
-        same(&cut(&[0.4]), &[0.0, 0.1, 0.2, 0.4, 0.7, 1.0]);
-        same(&cut(&[0.21, 0.6]), &[0.0, 0.105, 0.21, 0.21 + 0.39 * 0.4, 0.6, 1.0]);
-        // Beside an end of Γ_C, and where another one ends already.
-        same(&cut(&[0.03]), &[0.0, 0.1, 0.2, 0.4, 0.7, 1.0]);
-        same(&cut(&[0.68, 0.72]), &[0.0, 0.1 * 0.68 / 0.7, 0.2 * 0.68 / 0.7, 0.4 * 0.68 / 0.7, 0.68, 1.0]);
     }
 
     #[test]

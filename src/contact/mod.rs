@@ -43,7 +43,7 @@ mod trace;
 
 pub use contact_boundary::ContactBoundary;
 pub use coupling::{Distance, Entry, Integrals, declared_gap, integrate};
-pub use cutting::{end_segments_at, safe_ratio_of, segment_edge_lengths, segment_ratio};
+pub use cutting::{safe_ratio_of, segment_edge_lengths, segment_ratio};
 pub use drawn::{ClosePair, CloseSide, DrawnGap, Facing, WIDEST_TURN, close_pairs, close_sides, drawn_gap};
 pub use finite_motion::{FiniteMotion, GapError, Turn, finite_motion};
 pub use fit::{Meeting, PointContact, hertz_width, point_contact, swings};

@@ -2,7 +2,7 @@
 
 use crate::contact::{
     Configuration, ContactBoundary, Displacement, Distance, Facing, GapChoice, Jump, Known, MultiplierSpace, Multipliers, Pair,
-    SegmentRule, Stabilise, Zone, end_segments_at, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
+    Stabilise, Zone, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
 };
 use crate::discretisation::contacts::side_materials::SideMaterials;
 use crate::discretisation::error::SystemError;
@@ -133,11 +133,7 @@ impl Contact {
         let young = materials.ruling();
         let placed = place(&scene.mesh, numbering, pair, young, known, displacement)
             .map_err(|words| format!("contact.{}: {words}", pair.name))?;
-        let (mut boundary, all) = (placed.boundary, placed.edges);
-        let joints = materials.joints(&boundary, &all, numbering.level);
-        if !joints.is_empty() && !matches!(pair.segments, SegmentRule::Fractions(_)) {
-            end_segments_at(&mut boundary, &joints);
-        }
+        let (boundary, all) = (placed.boundary, placed.edges);
         let own = |edge: &&BoundaryEdge| scene.partition.owner(edge.triangle as u32) == rank;
         let edges = all.each_ref().map(|edges| edges.iter().filter(own).cloned().collect());
         let segment_ratio = segment_ratio(&boundary, &all, young);
@@ -145,6 +141,7 @@ impl Contact {
         let safe_ratio = safe_ratio_of(scene.order, pair.space, &all);
         let multipliers = Multipliers::new(pair.space, &boundary);
         let moduli = materials.moduli(&boundary, &all);
+        let joints = materials.joints(&boundary, &all, numbering.level);
         let modulus_of = |i: usize| multipliers.mean_beside(i, &moduli);
         let multiplier_moduli: Vec<f64> = (0..multipliers.count()).map(modulus_of).collect();
         let (multipliers, jumps) = if is_stabilised(pair, segment_ratio < short(pair.space) * safe_ratio) {
