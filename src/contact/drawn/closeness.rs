@@ -362,7 +362,7 @@ fn body_sizes(mesh: &MacroMesh) -> Vec<f64> {
     let mut boxes = vec![[Point::repeat(f64::INFINITY), Point::repeat(f64::NEG_INFINITY)]; mesh.bodies.len()];
     for (piece, [low, high]) in mesh.pieces.iter().zip(mesh.bounds()) {
         let [least, most] = &mut boxes[piece.body];
-        (*least, *most) = (least.inf(&low), most.sup(&high));
+        (*least, *most) = (least.inf(low), most.sup(high));
     }
     boxes.iter().map(|[low, high]| (high - low).norm()).collect()
 }
