@@ -21,8 +21,9 @@ pub struct Penetration {
     pub approach: f64,
 }
 
-/// Of the two sides of a unilateral contact, by the nodes of both; `is_within` tells which places Γ_C faces.
-pub fn penetration(sides: &[Vec<SmoothSide>; 2], pair: &Pair, is_within: impl Fn(Point) -> bool) -> Penetration {
+/// Of the two sides of a unilateral contact, by the nodes of both; `away` is how far a place lies beyond the last end of Γ_C, or, below
+/// zero, before the first one; zero between them.
+pub fn penetration(sides: &[Vec<SmoothSide>; 2], pair: &Pair, away: impl Fn(Point) -> f64) -> Penetration {
     let mut penetration = Penetration::default();
     if pair.law != Law::Unilateral {
         return penetration;
@@ -30,32 +31,45 @@ pub fn penetration(sides: &[Vec<SmoothSide>; 2], pair: &Pair, is_within: impl Fn
     let (mut closed, mut nearest) = (0.0_f64, f64::INFINITY);
     for (stretches, others) in [(&sides[0], &sides[1]), (&sides[1], &sides[0])] {
         for (side, other) in stretches.iter().flat_map(|side| others.iter().map(move |other| (side, other))) {
-            // The deepest place of the stretch that overlaps here, while none of it lies within Γ_C.
-            let mut stretch = Some(0.0_f64);
+            let mut overlaps = Vec::with_capacity(side.nodes());
             for node in 0..side.nodes() {
                 let gaps = side.facing_gaps(node, other, pair, REACH * other.length());
                 let gaps = gaps.filter(|gaps| gaps.now.is_finite());
                 let place = side.points[node];
                 let overlap = gaps.as_ref().filter(|gaps| gaps.is_inside).map_or(0.0, |gaps| -gaps.now);
-                stretch = if is_within(place) {
-                    None
-                } else if overlap <= 0.0 {
-                    Some(0.0)
-                } else {
-                    stretch.map(|deepest| deepest.max(overlap))
-                };
-                penetration.beyond = penetration.beyond.max(stretch.unwrap_or(0.0));
-                let Some(gaps) = gaps else { continue };
-                closed = closed.max(gaps.at_rest - gaps.now);
-                nearest = nearest.min(gaps.at_rest);
+                overlaps.push((away(place), overlap));
                 if overlap > penetration.depth {
                     (penetration.depth, penetration.place) = (overlap, place);
                 }
+                let Some(gaps) = gaps else { continue };
+                closed = closed.max(gaps.at_rest - gaps.now);
+                nearest = nearest.min(gaps.at_rest);
             }
+            penetration.beyond = penetration.beyond.max(deepest_beyond(&overlaps));
         }
     }
     penetration.approach = if nearest.is_finite() { (closed - nearest.max(0.0)).max(-nearest).max(0.0) } else { 0.0 };
     penetration
+}
+
+/// The deepest overlap of nodes in a row that overlap and lie all beyond one end of Γ_C, with an open node between them and it; each
+/// node with how far it lies beyond.
+fn deepest_beyond(nodes: &[(f64, f64)]) -> f64 {
+    let rows = nodes.chunk_by(|a, b| (a.1 > 0.0) == (b.1 > 0.0) && a.0 * b.0 > 0.0);
+    let mut before = None;
+    let mut rows = rows.peekable();
+    let mut deepest = 0.0_f64;
+    while let Some(row) = rows.next() {
+        let (away, overlap) = row[0];
+        // Beside it lies Γ_C where the next node is not open, or not on the same side.
+        let is_open = |other: Option<f64>| other.is_none_or(|other| other * away > 0.0);
+        let behind = rows.peek().map(|next| next[0].0);
+        if overlap > 0.0 && away != 0.0 && is_open(before) && is_open(behind) {
+            deepest = row.iter().map(|node| node.1).fold(deepest, f64::max);
+        }
+        before = Some(row[row.len() - 1].0);
+    }
+    deepest
 }
 
 #[cfg(test)]
@@ -78,7 +92,7 @@ mod tests {
             let x = node.place(&mesh, &numbering);
             Point::new(0.0, if Some(mesh.body_beside(node.edge)) == upper { -by(x.x) } else { 0.0 })
         };
-        penetration(&SmoothSide::of_pair(&mesh, &numbering, &pair, &displacement), &pair, |x| x.x < within)
+        penetration(&SmoothSide::of_pair(&mesh, &numbering, &pair, &displacement), &pair, |x| (x.x - within).max(0.0))
     }
 
     #[test]
@@ -101,5 +115,15 @@ mod tests {
             assert!((beyond(0.9) - 0.05 * 0.675).abs() < 2e-3, "{}", beyond(0.9));
             assert_eq!(beyond(1.5), 0.0, "what goes on from within is that contact's own");
         }
+    }
+
+    #[test]
+    fn what_overlaps_beside_the_ends_of_the_contact_boundary_is_its_own() {
+        let deepest = |nodes: &[(f64, f64)]| deepest_beyond(nodes);
+        let far = [(-3.0, 0.1), (-2.0, 0.2), (-1.0, 0.0), (0.0, 0.5), (1.0, 0.3), (2.0, -1.0), (3.0, 0.15)];
+        assert_eq!(deepest(&far), 0.2);
+        assert_eq!(deepest(&far[3..]), 0.15);
+        assert_eq!(deepest(&[(-1.0, 0.1), (0.0, 0.0), (1.0, 0.2), (2.0, 0.0)]), 0.0);
+        assert_eq!(deepest(&[(-1.0, 0.1), (1.0, 0.2)]), 0.0, "no node faces it");
     }
 }

@@ -17,8 +17,12 @@ pub fn penetrations(problem: &Discretisation, solution: &Solution, forces: &[f64
     for (at, contact) in problem.contacts.iter().enumerate().filter(|(at, _)| at % session.size() == session.rank()) {
         let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
         let boundary = &contact.boundary;
-        let is_within = |place| (boundary.ends()[0]..=boundary.ends()[1]).contains(&boundary.foot(place));
-        let Penetration { depth, place, beyond, approach } = penetration(&sides, &contact.pair, is_within);
+        let [first, last] = boundary.ends();
+        let away = |place| {
+            let foot = boundary.foot(place);
+            (foot - last).max(0.0) + (foot - first).min(0.0)
+        };
+        let Penetration { depth, place, beyond, approach } = penetration(&sides, &contact.pair, away);
         let softest = contact.moduli.iter().copied().fold(f64::INFINITY, f64::min);
         // The force of a body of revolution is that of the whole ring.
         let width = mesh.plane.width(boundary.point(boundary.parameter_at(0.5 * boundary.length())));

@@ -39,6 +39,9 @@ const SMALL: f64 = 4000.0;
 /// Largest power of the fall of the indicators that errors are taken to go with.
 const MOST_PACE: f64 = 1.8;
 
+/// The smallest: where an error has not fallen as foreseen the next mesh goes farther at once.
+const LEAST_PACE: f64 = 0.25;
+
 /// Macro triangles smaller than this share of the scene are not refined: rounding of their corners would turn them round. Only
 /// where a force acts at a point does an error go on to ask for it.
 const SMALLEST: f64 = 1e-10;
@@ -140,7 +143,7 @@ impl Foreseen {
     /// The pace at which the error has fallen to what it is `now`.
     pub fn pace(self, now: f64) -> f64 {
         let pace = (now / self.error).ln() / self.fall.ln();
-        if pace.is_finite() { pace.clamp(1.0, MOST_PACE) } else { 1.0 }
+        if pace.is_finite() { pace.clamp(LEAST_PACE, MOST_PACE) } else { 1.0 }
     }
 }
 
