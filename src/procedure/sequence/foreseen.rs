@@ -39,7 +39,8 @@ const SMALL: f64 = 4000.0;
 /// Largest power of the fall of the indicators that errors are taken to go with.
 const MOST_PACE: f64 = 1.8;
 
-/// The smallest: where an error has not fallen as foreseen the next mesh goes farther at once.
+/// The smallest: where an error has not fallen as foreseen the next mesh goes farther at once. With one at least, a stress at a point
+/// beside a wedge took 20 meshes, each by 1 to 3 % larger, and 9 s, instead of 3 meshes and 1.2 s.
 const LEAST_PACE: f64 = 0.25;
 
 /// Macro triangles smaller than this share of the scene are not refined: rounding of their corners would turn them round. Only
@@ -338,10 +339,10 @@ mod tests {
             let goal = Indicators { pace, ..goal.clone() };
             next_mesh(&first, &[], (&[goal], NEAR), unknowns, None).expect("no limit").mesh.mesh.triangles.len()
         };
-        assert!(count(1.8) < count(1.0), "errors fell faster before");
+        assert!(count(1.8) < count(1.0) && count(1.0) < count(LEAST_PACE), "errors fell faster before, or more slowly");
         let foreseen = Foreseen { error: 8.0, fall: 0.5 };
-        assert!((foreseen.pace(8.0 * 0.5f64.powf(1.5)) - 1.5).abs() < 1e-12);
-        assert_eq!((foreseen.pace(6.0), foreseen.pace(1e-3)), (1.0, MOST_PACE));
+        assert!([0.4, 1.0, 1.5].iter().all(|&pace| (foreseen.pace(8.0 * 0.5f64.powf(pace)) - pace).abs() < 1e-12));
+        assert_eq!((foreseen.pace(7.9), foreseen.pace(1e-3)), (LEAST_PACE, MOST_PACE));
         assert_eq!(Foreseen { error: 8.0, fall: 1.0 }.pace(4.0), 1.0, "nothing was foreseen to fall");
     }
 }
