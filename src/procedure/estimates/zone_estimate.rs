@@ -141,10 +141,10 @@ struct Signs {
 }
 
 impl Signs {
-    /// The smaller one of stress and difference, but no less than the segments allow. The difference counts against a rigid tool: by
-    /// the stress of the one body λ of P1 on a wedge and under a flat punch was 1.3 and 1.4 times as far off as estimated. The larger one
-    /// counts where materials meet and λ may have no bound. There the stress is that of the body which is farther off: by the mean of both, errors of
-    /// three of 22 pressures were up to 1.6 times the estimate.
+    /// The smaller one of stress and difference, but no less than the segments allow. Against a rigid tool the difference counts: by
+    /// the stress of the other body alone λ of P1 on a wedge and under a flat punch was 1.3 and 1.4 times as far off as estimated.
+    /// Where materials meet and λ may have no bound the larger one counts, with the stress of the body that is farther off: by the
+    /// mean of both, errors of three of 22 pressures were up to 1.6 times the estimate.
     fn error(&self) -> Option<f64> {
         let chosen = if self.has_joint { f64::max } else { f64::min };
         let stress = self.stress.filter(|_| self.has_joint || !self.by_one_body || self.left.is_none());
