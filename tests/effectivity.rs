@@ -180,3 +180,34 @@ contact.seam = {{ between = ["lower.seam", "upper.seam"], curve = "line", gap = 
     assert!(trust("1 + 0.33*x") != true, "a steep pressure");
     assert!(trust("1") == true, "an even pressure");
 }
+
+/// A clamped beam over a base, with a gap that is small beside the clamp and at a bump: Γ_C is what presses on the first mesh, at the
+/// bump, and a zone beside the clamp that finer meshes see lies beyond it.
+#[test]
+fn a_zone_that_lies_beyond_the_contact_boundary_is_told() {
+    let mesh = Mesh {
+        bodies: vec![
+            ("base", grid(36, 7, 11, |u, v| [22.0 * u, 4.0 * v - 4.0]), ["base.foot", "", "base.top", ""]),
+            ("beam", grid(37, 7, 12, |u, v| [22.0 * u, 4.0 * v]), ["beam.low", "", "beam.top", "clamp"]),
+        ],
+    };
+    let case = r#"
+mesh = { file = "mesh.msh", order = 2 }
+body.base = { young = 2.1e5, poisson = 0.3 }
+body.beam = { young = 2.1e5, poisson = 0.45 }
+support.foot = { on = "base.foot", ux = 0.0, uy = 0.0 }
+support.clamp = { on = "clamp", ux = 0.0, uy = 0.0 }
+load.top = { on = "beam.top", pressure = 100.0 }
+contact.seam = { between = ["beam.low", "base.top"], gap = "0.02*(1-exp(-((x-15)/1)^2))*(1-exp(-(x/2)^2))" }
+output.fields = false
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    let run = |ends: &str| Run::file(&file).set("mesh.refine", 2).set("contact.seam.ends", ends).ranks(2).converged();
+    let [lost, whole] = ["free", "fixed"].map(run);
+    let [lost_force, force] = [&lost, &whole].map(|ended| ended.number("/contact/seam/force"));
+    assert!(lost_force < 0.98 * force, "{lost_force} and {force}");
+    assert!(lost.number("/contact/seam/missing_beyond") > 0.01 && whole.number("/contact/seam/missing_beyond") == 0.0);
+    assert_eq!(lost.value("/contact/seam/trust_force"), false, "{}", lost.said());
+    assert!(lost.said().contains("the bodies overlap beyond the contact boundary"), "{}", lost.said());
+}
