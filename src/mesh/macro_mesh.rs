@@ -142,7 +142,7 @@ pub struct MacroMesh {
     pub has_midsides: bool,
     /// What the plane of the mesh stands for.
     pub plane: Plane,
-    /// Boxes around the pieces, once somebody has asked for them.
+    /// Boxes around the pieces, once somebody has asked for them; whoever moves a vertex or adds a body empties it.
     pub bounds: OnceCell<Vec<[Point; 2]>>,
 }
 

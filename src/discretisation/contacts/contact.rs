@@ -62,7 +62,7 @@ pub struct Contact {
     pub limits: [f64; 2],
     /// Whether a load acts on the boundary of body 1, and of body 2: its stress is not that of the contact alone.
     pub loaded: [bool; 2],
-    /// Which of both bodies is a rigid tool.
+    /// Whether body 1, and body 2, is a rigid tool.
     pub rigid: [bool; 2],
 }
 

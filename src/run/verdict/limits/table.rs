@@ -83,7 +83,7 @@ pub static OVERLAP: Limit = most((0.1, two, MoreSegments, "the bodies overlap wh
 pub const OVERLAP_ALONE: f64 = 1e-5;
 
 /// `missing_beyond`: force, relative to that found, that overlaps all beyond the contact boundary may be worth: what presses there is
-/// lost, a third to a half of that.
+/// lost, a third to a half of that (3.4 % of the force for 8.3 beside a clamp, 5.4 for 15 on a leaf spring).
 pub static OVERLAP_BEYOND: Limit = most((0.01, two_digits, Words("take ends = \"fixed\""),
     "the bodies overlap beyond the contact boundary",
     "the bodies overlap beyond the contact boundary by what is worth {value} of its force, at most {bound} wanted"));
