@@ -356,14 +356,14 @@ fn the_page_of_performance_is_made_of_studies() {
     let curve = |(name, order, space): (&str, u8, &str)| {
         format!("[[curve]]\nname = '{name}'\nset = {{ 'mesh.order' = {order}, 'contact.seam.multiplier' = '{space}' }}\n")
     };
-    let along = "along = ['mesh.refine', 'accuracy.energy']\n";
+    let along = "along = ['mesh.refine', 'accuracy.energy']\ncolumns = ['time_s.mesh']\n";
     let head = "ranks = [1, 2]\nerror = ['errors.energy', 'errors.lambda_seam']\n[grid]\n'mesh.refine' = [0, 1, 2]\n";
     let adapted = "[[curve]]\nname = 'P2/P0, adapted'\nset = { 'contact.seam.multiplier' = 'p0' }\n\
          grid = { 'mesh.refine' = [0], 'accuracy.energy' = [1e-1, 1e-2] }\n";
     let study = Study::new(&format!("{along}{head}{}{adapted}", pairs.map(curve).concat()));
     study.rows();
     let program = "import json, sys\nsys.path.insert(0, sys.argv[1])\nimport words\nstudy = json.load(open(sys.argv[2]))\n\
-         studies = {name: study for name in ('speed_against_error', 'scaling', 'ranks')}\n\
+         studies = {name: study for name in ('speed_against_error', 'scaling', 'brought', 'ranks')}\n\
          solver = lambda line: line['name'].rsplit(', ', 1)[0] + (', fieldsplit' if line['ranks'] == 1 else ', direct')\n\
          studies['solvers'] = dict(study, lines=[dict(line, name=solver(line)) for line in study['lines']])\n\
          print(words.page(studies, False))";
@@ -382,6 +382,7 @@ fn the_page_of_performance_is_made_of_studies() {
         "| P1/P0, 1 rank |",
         "| P2/P0, adapted, 1 rank |",
         "| Krylov iterations |",
+        "## Fine meshes from a file",
         "The ratio is the time of `direct`",
         "Energies differ by ",
     ] {

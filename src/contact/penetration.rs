@@ -55,21 +55,20 @@ pub fn penetration(sides: &[Vec<SmoothSide>; 2], pair: &Pair, away: impl Fn(Poin
 /// The deepest overlap of nodes in a row that overlap and lie all beyond one end of Γ_C, with an open node between them and it; each
 /// node with how far it lies beyond.
 fn deepest_beyond(nodes: &[(f64, f64)]) -> f64 {
-    let rows = nodes.chunk_by(|a, b| (a.1 > 0.0) == (b.1 > 0.0) && a.0 * b.0 > 0.0);
-    let mut before = None;
-    let mut rows = rows.peekable();
-    let mut deepest = 0.0_f64;
-    while let Some(row) = rows.next() {
-        let (away, overlap) = row[0];
-        // Beside it lies Γ_C where the next node is not open, or not on the same side.
-        let is_open = |other: Option<f64>| other.is_none_or(|other| other * away > 0.0);
-        let behind = rows.peek().map(|next| next[0].0);
-        if overlap > 0.0 && away != 0.0 && is_open(before) && is_open(behind) {
-            deepest = row.iter().map(|node| node.1).fold(deepest, f64::max);
-        }
-        before = Some(row[row.len() - 1].0);
-    }
-    deepest
+    rows_beyond(nodes).into_iter().flatten().map(|node| node.1).fold(0.0, f64::max)
+}
+
+/// The rows of nodes that overlap and lie all beyond one end of Γ_C, with an open node between them and it; each node with how far it
+/// lies beyond, and how deep it overlaps.
+pub fn rows_beyond(nodes: &[(f64, f64)]) -> Vec<&[(f64, f64)]> {
+    let rows: Vec<_> = nodes.chunk_by(|a, b| (a.1 > 0.0) == (b.1 > 0.0) && a.0 * b.0 > 0.0).collect();
+    // Beside a row lies Γ_C where the next node is not open, or not on the same side.
+    let is_open = |at: Option<usize>, away: f64| at.and_then(|at| rows.get(at)).is_none_or(|row| row[0].0 * away > 0.0);
+    let is_apart = |at: usize| {
+        let (away, overlap) = rows[at][0];
+        overlap > 0.0 && away != 0.0 && is_open(at.checked_sub(1), away) && is_open(Some(at + 1), away)
+    };
+    (0..rows.len()).filter(|&at| is_apart(at)).map(|at| rows[at]).collect()
 }
 
 #[cfg(test)]

@@ -99,7 +99,7 @@ impl<'a> Evaluation<'a> {
 
     /// Force that overlaps all beyond a contact boundary are worth, relative to the force found.
     pub fn missing_beyond(&self, contact: usize) -> Option<f64> {
-        missing_beyond(&self.problem.contacts[contact], &self.penetrations[contact], self.balance.contacts[contact].force)
+        missing_beyond(&self.problem.contacts[contact], self.penetrations[contact].beyond, self.balance.contacts[contact].force)
     }
 
     /// Force that penetration within single segments of a contact is worth (force per thickness).

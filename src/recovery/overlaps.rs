@@ -5,7 +5,6 @@
 //! that of the contact, in most 0.1 %; on a leaf that touches on half a segment it is 79 %.
 
 use super::traces::TracePoint;
-use crate::contact::Penetration;
 use crate::discretisation::Contact;
 
 /// Penetration below this share of the largest normal displacement is what the solve leaves.
@@ -39,14 +38,14 @@ pub fn missing_force(contact: &Contact, zones: &[[f64; 2]], points: &[TracePoint
     (Some(missing).filter(|missing| missing.is_finite()), 0.5 * sum)
 }
 
-/// Force that an overlap all beyond Γ_C is worth, relative to the force found: that of [`missing_force`]. Γ_C is the part that
+/// Force that an overlap all `beyond` Γ_C (length) is worth, relative to the force found: that of [`missing_force`]. Γ_C is the part that
 /// presses on the first mesh, and what presses elsewhere on a finer one is lost: on a beam beside its clamp 3.4 % of the force, worth
 /// 8 % by this.
-pub fn missing_beyond(contact: &Contact, penetration: &Penetration, force: f64) -> Option<f64> {
+pub fn missing_beyond(contact: &Contact, beyond: f64, force: f64) -> Option<f64> {
     let boundary = &contact.boundary;
     let modulus = contact.moduli.iter().copied().fold(0.0, f64::max);
     let width = boundary.width(boundary.parameter_at(0.5 * boundary.length()));
-    Some(0.5 * modulus * penetration.beyond * width / force.abs()).filter(|missing| missing.is_finite())
+    Some(0.5 * modulus * beyond * width / force.abs()).filter(|missing| missing.is_finite())
 }
 
 /// Force that would push the bodies out of each other where they penetrate at single points, `E_c/H ∫ max(0, -gap) ds` with

@@ -6,6 +6,7 @@ use crate::contact::fit::near_part::{NearPart, is_near, only_near_part};
 use crate::contact::fit::node_window::NodeWindow;
 use crate::contact::fit::own_curve::OwnCurve;
 use crate::contact::pair::{GapChoice, Pair};
+use crate::contact::penetration::rows_beyond;
 use crate::contact::smooth_side::SmoothSide;
 use crate::geometry::{Coordinates, Curve, Point};
 use std::ops::Range;
@@ -34,6 +35,16 @@ pub struct Meeting {
     pub goes_round: bool,
     /// The way from each side to Γ_C, where that has its shape (length).
     pub shifts: [Point; 2],
+}
+
+/// Overlaps of two bodies beyond the ends of their Γ_C.
+pub struct OverlapBeyond {
+    /// Of all nodes that count, the deepest (length).
+    pub depth: f64,
+    /// Of those with an open node between them and Γ_C, which has lost them, the deepest (length).
+    pub lost: f64,
+    /// Parameters of the ends of a Γ_C that takes these in.
+    pub ends: [f64; 2],
 }
 
 impl Meeting {
@@ -136,17 +147,35 @@ impl Meeting {
         }
     }
 
-    /// How deep nodes of body 1 lie in body 2 as they are now (length), more than `margin` (length) beyond the ends of Γ_C.
-    pub fn depth_beyond(&self, sides: &[Vec<SmoothSide>; 2], pair: &Pair, boundary: &ContactBoundary, margin: f64) -> f64 {
+    /// Where nodes of body 1 lie in body 2 as they are now beyond the ends of Γ_C; `margin` (length) is how far beyond they begin to
+    /// count for the depth.
+    pub fn overlap_beyond(
+        &self,
+        sides: &[Vec<SmoothSide>; 2],
+        pair: &Pair,
+        boundary: &ContactBoundary,
+        margin: f64,
+    ) -> OverlapBeyond {
         let [first, second] = self.sides(sides);
         let ends = boundary.ends();
         let own = OwnCurve::of_pair([first, second], pair);
         let margins = if own.is_some() { ends.map(|t| margin / boundary.speed(t)) } else { [margin; 2] };
-        let [low, high] = [ends[0] - margins[0], ends[1] + margins[1]];
-        let place = |node: usize| own.as_ref().map_or(first.parameters[node], |own| own.node(node));
-        let beyond = (0..first.points.len()).filter(|&node| place(node) < low || place(node) > high);
-        let depth = beyond.filter_map(|node| first.facing_gaps(node, second, pair, 1e-9 * second.length())).map(|gaps| -gaps.now);
-        depth.fold(0.0, f64::max)
+        let node = |node: usize| {
+            let place = own.as_ref().map_or(first.parameters[node], |own| own.node(node));
+            let gaps = first.facing_gaps(node, second, pair, 1e-9 * second.length());
+            ((place - ends[1]).max(0.0) + (place - ends[0]).min(0.0), gaps.map_or(0.0, |gaps| -gaps.now))
+        };
+        let nodes: Vec<_> = (0..first.points.len()).map(node).collect();
+        let beyond = nodes.iter().filter(|(away, _)| *away < -margins[0] || *away > margins[1]);
+        let mut found = OverlapBeyond { depth: beyond.fold(0.0, |depth, node| depth.max(node.1)), lost: 0.0, ends };
+        for &(away, overlap) in rows_beyond(&nodes).into_iter().flatten() {
+            found.lost = found.lost.max(overlap);
+            match away < 0.0 {
+                true => found.ends[0] = found.ends[0].min(ends[0] + away - margins[0]),
+                false => found.ends[1] = found.ends[1].max(ends[1] + away + margins[1]),
+            }
+        }
+        found
     }
 
     /// The curve of Γ_C and the parameters up to which both sides are there: that of one of the sides, or the curve half-way
@@ -262,10 +291,10 @@ mod tests {
             ([0.5, 2.0], 0.2, 0.0025),
             ([0.1, 1.9], 0.2, 0.0),
         ] {
-            let found = meeting.depth_beyond(&sides, &pair(), &part(ends), margin);
+            let found = meeting.overlap_beyond(&sides, &pair(), &part(ends), margin).depth;
             assert!((found - depth).abs() < 1e-5, "{found} beyond {ends:?} by {margin}, instead of {depth}");
         }
-        assert_eq!(meeting.depth_beyond(&lowered(|_| -0.01), &pair(), &part([0.5, 1.0]), 0.1), 0.0, "they are apart");
+        assert_eq!(meeting.overlap_beyond(&lowered(|_| -0.01), &pair(), &part([0.5, 1.0]), 0.1).depth, 0.0, "they are apart");
     }
 
     /// A round body on a plane, with edges of .02 where they touch and of up to 1 beside them: what lies half-way bends as evenly as

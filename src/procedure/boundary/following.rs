@@ -3,13 +3,14 @@
 use super::ends::{FoundEnd, ends_by_force, ends_of_a_part, free_ends};
 use super::rest::{BoundaryStep, HELD, MOST_BOUNDARIES, MOST_HELD, left_to_the_mesh, most_left, moves, way};
 use crate::accuracy::{Accuracy, share_of_nothing};
-use crate::contact::{Configuration, Known, SmoothSide};
+use crate::contact::{Configuration, Displacement, Known, SmoothSide};
 use crate::discretisation::{BoundaryMotion, Contact, Discretisation, Solution, SystemError};
 use crate::geometry::Point;
 use crate::mesh::EdgeNode;
 use crate::petsc::Session;
 use crate::procedure::ending::Failure;
 use crate::procedure::sets::relative_change;
+use crate::recovery::missing_beyond;
 
 /// Boundaries placed at most on meshes before the last one, which tell the next where its boundaries lie: their ends are aligned
 /// with the pressure twice.
@@ -37,6 +38,9 @@ const ALIKE: std::ops::Range<f64> = 0.5..2.0;
 /// Penetration beyond the ends, as a share of the length of Γ_C, that is no contact missed.
 const MOST_BEYOND: f64 = 1e-3;
 
+/// Force that overlaps all beyond the ends may be worth, relative to that found, before Γ_C takes them in.
+const MOST_LOST: f64 = 1e-3;
+
 /// What follows from a solution.
 pub enum NextBoundary {
     /// Everything stands: the solution is the one. Where it stands to what the mesh is exact for, with the share of its length
@@ -59,6 +63,8 @@ pub struct Following {
     displacement: Vec<f64>,
     active: Vec<bool>,
     ends: Vec<[FoundEnd; 2]>,
+    /// Whether each boundary has taken up again what it had lost.
+    taken_up: Vec<bool>,
     /// How far the boundary moved last before its ends were held.
     last_way: f64,
     /// How far each boundary has reached so far.
@@ -82,6 +88,7 @@ impl Following {
             displacement: Vec::new(),
             active: Vec::new(),
             ends: vec![[None; 2]; problem.contacts.len()],
+            taken_up: vec![false; problem.contacts.len()],
             last_way: 0.0,
             widest: vec![[f64::INFINITY, f64::NEG_INFINITY]; problem.contacts.len()],
             nothing: share_of_nothing(asked),
@@ -132,14 +139,25 @@ impl Following {
         let left = left_to_the_mesh(&pairs, self.most_left, still_boundary).filter(|_| may_be_left);
         let next_boundary = match moved {
             // The same boundary has the same solution.
-            Some(0.0) => self.beyond(problem, solution, &motion, None),
-            Some(way) if way <= still_boundary && still => self.beyond(problem, solution, &motion, None),
-            _ if left.is_some() => self.beyond(problem, solution, &motion, left),
-            _ if number >= self.most && self.most == MOST_ON_THE_WAY => self.beyond(problem, solution, &motion, moved),
+            Some(0.0) => NextBoundary::Stands(None),
+            Some(way) if way <= still_boundary && still => NextBoundary::Stands(None),
+            _ if left.is_some() => NextBoundary::Stands(left),
+            _ if number >= self.most && self.most == MOST_ON_THE_WAY => NextBoundary::Stands(moved),
             _ if number >= self.most => NextBoundary::GivenUp(moves(&step)),
-            _ => NextBoundary::Again(next, motion),
+            _ => return Ok((step, NextBoundary::Again(next, motion))),
         };
-        Ok((step, next_boundary))
+        // Edges wider than the contact bend into each other beside it, on meshes before the last one.
+        if matches!(next_boundary, NextBoundary::GivenUp(_)) || self.most == MOST_ON_THE_WAY {
+            return Ok((step, next_boundary));
+        }
+        match self.beyond(problem, solution, &displacement, known) {
+            Ok(None) => Ok((step, next_boundary)),
+            Ok(Some(known)) => {
+                let next = Contact::all_again(&problem.scene, &space.numbering, session.rank(), &known, &displacement)?;
+                Ok((step, NextBoundary::Again(next, motion)))
+            }
+            Err(failure) => Ok((step, NextBoundary::GivenUp(failure))),
+        }
     }
 
     /// The contacts that follow before and after, without those that only touch, and without those that are narrower than an edge once
@@ -166,28 +184,38 @@ impl Following {
         self.nothing * forces.fold(0.0, f64::max)
     }
 
-    /// What stands must not leave contact out: bodies that penetrate each other beyond the ends of Γ_C.
-    fn beyond(&self, problem: &Discretisation, solution: &Solution, motion: &BoundaryMotion, way: Option<f64>) -> NextBoundary {
-        // Edges wider than the contact bend into each other beside it, on meshes before the last one.
-        if self.most == MOST_ON_THE_WAY {
-            return NextBoundary::Stands(way);
-        }
+    /// What stands must not leave contact out: bodies that penetrate each other beyond the ends of Γ_C. What a boundary has lost it
+    /// takes up again, once on each mesh: the ends that do, in what the boundaries are placed by.
+    ///
+    /// # Errors
+    /// The failure, where bodies penetrate each other too deep.
+    fn beyond(
+        &mut self,
+        problem: &Discretisation,
+        solution: &Solution,
+        displacement: Displacement,
+        mut known: Vec<Known>,
+    ) -> Result<Option<Vec<Known>>, Failure> {
         let (mesh, space) = (&problem.scene.mesh, problem.finest());
-        let displacement = |node: EdgeNode| motion.at(node, mesh, space);
-        let fitted =
-            problem.contacts.iter().filter_map(|contact| contact.known.meeting.as_ref().map(|meeting| (contact, meeting)));
         let least = self.least_force(problem, solution);
-        // Where the force tells the ends, edges about as wide as the contact bend into each other beside it.
-        let fitted = fitted.filter(|(contact, _)| ends_by_force(&solution.pressure(contact), least).is_none());
-        for (contact, meeting) in fitted {
-            let mut sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
+        let mut is_lost = false;
+        for (at, contact) in problem.contacts.iter().enumerate() {
+            let pressure = solution.pressure(contact);
+            // Where the force tells the ends, edges about as wide as the contact bend into each other beside it.
+            let meeting = contact.known.meeting.as_ref().filter(|_| ends_by_force(&pressure, least).is_none());
+            let Some(meeting) = meeting else { continue };
+            let mut sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, displacement);
             meeting.begin(&mut sides);
-            let depth = meeting.depth_beyond(&sides, &contact.pair, &contact.boundary, contact.edge_length());
-            if depth > MOST_BEYOND * contact.boundary.length() {
-                return NextBoundary::GivenUp(Failure::Beyond { contact: contact.pair.name.clone(), depth });
+            let overlap = meeting.overlap_beyond(&sides, &contact.pair, &contact.boundary, contact.edge_length());
+            let worth = missing_beyond(contact, overlap.lost, pressure.force());
+            if contact.has_free_ends() && !self.taken_up[at] && worth.is_some_and(|worth| worth > MOST_LOST) {
+                (self.taken_up[at], self.ends[at], is_lost) = (true, [None; 2], true);
+                (known[at].ends, known[at].segments) = (Some(overlap.ends), None);
+            } else if overlap.depth > MOST_BEYOND * contact.boundary.length() {
+                return Err(Failure::Beyond { contact: contact.pair.name.clone(), depth: overlap.depth });
             }
         }
-        NextBoundary::Stands(way)
+        Ok(is_lost.then_some(known))
     }
 
     /// Change of the displacement since the boundary before, relative to its norm. **Collective**
