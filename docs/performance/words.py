@@ -31,8 +31,8 @@ def page(studies, small):
     speed, scaling, ranks = studies["speed_against_error"], studies["scaling"], studies["ranks"]
     parts = [
         "# Performance",
-        "Made by `docs/performance/make` from the studies in [cases/studies](../cases/studies/README.md), words and tables too: do "
-        "not edit them here. Figures and fits are explained in [studies.md](studies.md).",
+        "Made by `docs/performance/make` from the studies in [cases/studies](../cases/studies/README.md), words and tables, too. "
+        "Figures and fits are explained in [studies.md](studies.md).",
         SMALL if small else "",
         machine(studies),
         speed_section(speed, small),
@@ -82,7 +82,7 @@ def speed_section(study, small):
         parts.append(bounds_table(lines, [error for error in errors if error != NORM]))
         untrusted = sum(not point["trusted"] for line in lines for point in line["points"])
         if untrusted:
-            parts.append(f"Left out: {untrusted} settings whose pressure is not to be trusted (hollow marks).")
+            parts.append(f"Left out: {untrusted} setting{'s' if untrusted > 1 else ''} whose pressure is not to be trusted (hollow marks).")
     if not small:
         parts += [
             "### Which choice is faster",
