@@ -519,7 +519,11 @@ load.rim = { on = "ring.out", pressure = 15.0 }
     for (key, value, ranks) in [("mesh.refine", "0", 1), ("mesh.refine", "1", 2), ("accuracy.energy", "0.01", 2)] {
         let ended = Run::file(&file).set(key, value).ranks(ranks).ended();
         assert_eq!(ended.code, Some(3), "{key}: {}", ended.said());
-        assert!(ended.said().contains("nothing drives that: hold it by ux = 0.0 in support.ring, too"), "{key}: {}", ended.said());
+        assert!(
+            ended.said().contains("nothing drives that: hold it by ux = 0.0 in support.ring, too"),
+            "{key}: {}",
+            ended.said()
+        );
     }
     let hot = Run::file(&file).set("contact.joint.gap", 0.004).set("body.hub.temperature", 90.0).set("mesh.refine", 1).ranks(2);
     assert!(hot.converged().number("/contact/joint/force") > 0.0);

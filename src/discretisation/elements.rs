@@ -4,6 +4,7 @@ use crate::body::{NodePositions, positions, positions_of_one};
 use crate::discretisation::field::Field;
 use crate::discretisation::levels::Discretisation;
 use crate::geometry::Point;
+use crate::mesh::Level;
 use crate::mesh::lattice::{self, Triangle};
 
 /// An element with `N` nodes: its corners counter-clockwise, then its midsides.
@@ -16,7 +17,45 @@ pub struct Element<const N: usize> {
     pub x: [Point; N],
 }
 
+/// A macro triangle that is straight and even, with displacements: its elements are one triangle and the point reflections of that.
+pub struct EvenTriangle<const N: usize> {
+    /// Where the nodes of the first element lie, undeformed (length).
+    pub x: [Point; N],
+    level: Level,
+    /// Row by row.
+    displacements: Vec<Point>,
+}
+
+impl<const N: usize> EvenTriangle<N> {
+    /// Places of the nodes of each element in the lattice, row by row, their displacements, and the sign that slopes by x and y have
+    /// there beside those on the first element.
+    #[inline]
+    pub fn each(&self, mut show: impl FnMut([usize; N], [Point; N], f64)) {
+        for small in lattice::triangles(self.level.intervals, self.level.order) {
+            let at = small.nodes::<N>().map(|(i, j)| lattice::index(self.level.intervals, i, j));
+            show(at, at.map(|node| self.displacements[node]), if small.down { -1.0 } else { 1.0 });
+        }
+    }
+}
+
 impl Discretisation {
+    /// A macro triangle with displacements, if it is straight and even, and no body of revolution.
+    pub fn even_triangle<const N: usize>(&self, triangle: usize, u: &Field<2>) -> Option<EvenTriangle<N>> {
+        let (mesh, level) = (&self.scene.mesh, self.finest().numbering.level);
+        if level.is_one_triangle() || mesh.is_graded(triangle) || !mesh.repeats(triangle) {
+            return None;
+        }
+        let x = self.element(triangle, Triangle::at(0, 0, level.order)).x;
+        Some(EvenTriangle { x, level, displacements: self.on_lattice(triangle, u) })
+    }
+
+    /// Displacements at the nodes of a macro triangle, row by row.
+    pub fn on_lattice(&self, triangle: usize, u: &Field<2>) -> Vec<Point> {
+        let numbering = &self.finest().numbering;
+        let numbers = numbering.triangle(&self.scene.mesh, triangle);
+        lattice::nodes(numbering.level.intervals).map(|(i, j)| u.point(numbers.node(i, j))).collect()
+    }
+
     /// Shows all elements of a macro triangle, in the order of the lattice.
     ///
     /// # Errors

@@ -34,7 +34,7 @@ pub use contacts::{
     BoundaryMotion, Contact, ContactPressure, Coupled, Coupling, beside, bilateral, check_soundness, coupled_here,
     refused_contacts, widest,
 };
-pub use elements::Element;
+pub use elements::{Element, EvenTriangle};
 pub use error::{SystemError, agreed};
 pub use field::Field;
 pub use forces::{SpringForces, internal_forces, load, local_strain_energy, nodal_forces};

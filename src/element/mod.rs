@@ -12,7 +12,7 @@ mod stiffness;
 pub use load::{edge_load, heat_load, triangle_load};
 pub use map::{BadJacobian, Block, jacobian, place_of};
 pub use measure::{MEASURE_NAMES, MEASURES, StressMeasure};
-pub use nodal_stress::nodal_stresses;
+pub use nodal_stress::{corner_slopes, nodal_stresses, straight_stresses};
 pub use plane_law::{Heat, Plane, PlaneLaw, Strain, von_mises};
 pub use shape::{edge_shape, edge_slope, shape, slopes};
 pub use stiffness::{

@@ -23,11 +23,9 @@ pub fn nodal_stresses<const N: usize>(
     heat: Option<&Heat>,
 ) -> Result<[([f64; 4], f64); N], BadJacobian> {
     if heat.is_none() && law.plane != Plane::Revolution {
-        if N == 3 {
-            return Ok([(heated_stress(nodes, u, NODES[0], law, None)?, jacobian(nodes, NODES[0])?.1); N]);
-        }
-        if is_straight(nodes) {
-            return straight(nodes, u, law);
+        if N == 3 || is_straight(nodes) {
+            let (slopes, determinant) = corner_slopes(nodes)?;
+            return Ok(straight_stresses(u, &slopes, law).map(|stress| (stress, determinant)));
         }
     }
     let mut found = [([0.0; 4], 0.0); N];
@@ -44,27 +42,38 @@ fn is_straight(nodes: &[Point]) -> bool {
     })
 }
 
-/// On a straight P2 triangle the stress is linear: that of a midside is the mean of its corners, and one map serves all.
-fn straight<const N: usize>(nodes: &[Point; N], u: &[Point; N], law: &PlaneLaw) -> Result<[([f64; 4], f64); N], BadJacobian> {
-    let (corner_gradients, determinant) = jacobian(&[nodes[0], nodes[1], nodes[2]], NODES[0])?;
-    let mut found = [([0.0; 4], determinant); N];
+/// Slopes by x and y of the barycentric coordinates of a straight triangle (1/length), and its Jacobian determinant.
+///
+/// # Errors
+/// [`BadJacobian`] if it is turned inside out.
+pub fn corner_slopes<const N: usize>(nodes: &[Point; N]) -> Result<([Point; 3], f64), BadJacobian> {
+    jacobian(&[nodes[0], nodes[1], nodes[2]], NODES[0])
+}
+
+/// Stress (xx, yy, xy, zz) at each node of a straight triangle, by the slopes of its barycentric coordinates. It is constant for P1, and
+/// linear for P2: that of a midside is the mean of its corners.
+#[inline]
+pub fn straight_stresses<const N: usize>(u: &[Point; N], slopes: &[Point; 3], law: &PlaneLaw) -> [[f64; 4]; N] {
+    let stress = |by: [(Point, usize); 3]| {
+        let gradient = by.into_iter().fold(Matrix2::zeros(), |sum, (slope, of)| sum + slope * slopes[of].transpose());
+        law.stress(&Strain { gradient, hoop: 0.0 })
+    };
+    if N == 3 {
+        return [stress([(u[0], 0), (u[1], 1), (u[2], 2)]); N];
+    }
+    let mut found = [[0.0; 4]; N];
     for corner in 0..3 {
         let (next, last) = ((corner + 1) % 3, (corner + 2) % 3);
         // ∂u by the corner's own barycentric coordinate, and by those of the two others, at the corner.
         let own = 3.0 * u[corner];
         let others = [4.0 * u[3 + corner] - u[next], 4.0 * u[3 + last] - u[last]];
-        let by = [(own, corner), (others[0], next), (others[1], last)];
-        let mut gradient = Matrix2::zeros();
-        for (slope, of) in by {
-            gradient += slope * corner_gradients[of].transpose();
-        }
-        found[corner].0 = law.stress(&Strain { gradient, hoop: 0.0 });
+        found[corner] = stress([(own, corner), (others[0], next), (others[1], last)]);
     }
     for side in 0..3 {
-        let (a, b) = (found[side].0, found[(side + 1) % 3].0);
-        found[3 + side].0 = std::array::from_fn(|k| 0.5 * (a[k] + b[k]));
+        let (a, b) = (found[side], found[(side + 1) % 3]);
+        found[3 + side] = std::array::from_fn(|k| 0.5 * (a[k] + b[k]));
     }
-    Ok(found)
+    found
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! How far the bodies are strained and turned: whether a theory of small strains and rotations holds.
 
 use crate::discretisation::{Discretisation, Field, SystemError, agreed};
-use crate::element::{Heat, Plane, PlaneLaw, by_order, place_of, strain};
+use crate::element::{Heat, Plane, PlaneLaw, Strain, by_order, jacobian, place_of, strain};
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, MacroTriangle};
 use crate::petsc::Session;
@@ -171,18 +171,33 @@ fn integrals<const N: usize>(
 ) -> Result<TriangleIntegrals, SystemError> {
     const MIDDLE: [f64; 3] = [1.0 / 3.0; 3];
     let mut sums = TriangleIntegrals::default();
+    if let Some(even) = problem.even_triangle::<N>(triangle, u).filter(|_| heat.is_none()) {
+        let (slopes, area) = jacobian(&even.x, MIDDLE)?;
+        even.each(|_, u, sign| {
+            let gradient = u.iter().zip(&slopes).fold(Matrix2::zeros(), |sum, (u, slope)| sum + u * slope.transpose());
+            let found = Strain { gradient: sign * gradient, hoop: 0.0 };
+            add_element(&mut sums, area, &found, law.stress(&found), 1.0);
+        });
+        return Ok(sums);
+    }
     problem.each_element::<N, _>(triangle, |element| {
         let (found, area) = strain(&element.x, &u.on(element), MIDDLE, law)?;
-        let (gradient, middle) = (&found.gradient, place_of(&element.x, MIDDLE));
-        let rotation = 0.5 * (gradient[(1, 0)] - gradient[(0, 1)]);
-        let [xx, yy, ..] = law.heated(law.stress(&found), heat, middle);
-        let size = principal(gradient).max(found.hoop.abs());
-        let growth = 0.5 * (rotation * rotation - size * size).max(0.0) * law.plane.width(middle);
-        let values = [size, 1.0, rotation, growth * (xx + yy)];
-        sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);
+        let middle = place_of(&element.x, MIDDLE);
+        add_element(&mut sums, area, &found, law.heated(law.stress(&found), heat, middle), law.plane.width(middle));
         Ok::<(), SystemError>(())
     })?;
     Ok(sums)
+}
+
+/// Adds an element by its strain and its stress in the middle, and the width there.
+#[inline]
+fn add_element(sums: &mut TriangleIntegrals, area: f64, found: &Strain, [xx, yy, ..]: [f64; 4], width: f64) {
+    let gradient = &found.gradient;
+    let rotation = 0.5 * (gradient[(1, 0)] - gradient[(0, 1)]);
+    let size = principal(gradient).max(found.hoop.abs());
+    let growth = 0.5 * (rotation * rotation - size * size).max(0.0) * width;
+    let values = [size, 1.0, rotation, growth * (xx + yy)];
+    sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);
 }
 
 /// The larger principal strain of a displacement gradient, by magnitude.

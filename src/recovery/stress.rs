@@ -1,8 +1,8 @@
 //! Stress at the nodes.
 
-use crate::discretisation::{Discretisation, Field, SystemError, agreed};
-use crate::element::{Heat, PlaneLaw, by_order, nodal_stresses};
-use crate::mesh::MacroMesh;
+use crate::discretisation::{Discretisation, EvenTriangle, Field, SystemError, agreed};
+use crate::element::{Heat, PlaneLaw, by_order, corner_slopes, nodal_stresses, straight_stresses};
+use crate::mesh::{MacroMesh, lattice};
 use crate::petsc::Session;
 
 /// Stress at the nodes of each part of the bodies: where two parts meet it has two values, for some of its components jump.
@@ -69,6 +69,9 @@ fn add<const N: usize>(
     (law, heat): (&PlaneLaw, Option<&Heat>),
     sums: &mut Field<5>,
 ) -> Result<(), SystemError> {
+    if let Some(even) = problem.even_triangle::<N>(triangle, u).filter(|_| heat.is_none()) {
+        return add_even(problem, triangle, law, &even, sums);
+    }
     problem.each_element::<N, _>(triangle, |element| {
         for (&node, (s, area)) in element.nodes.iter().zip(nodal_stresses(&element.x, &u.on(element), law, heat)?) {
             let sum = sums.at_mut(node);
@@ -79,4 +82,29 @@ fn add<const N: usize>(
         }
         Ok(())
     })
+}
+
+/// Of a macro triangle whose elements are alike: summed up on its lattice first.
+fn add_even<const N: usize>(
+    problem: &Discretisation,
+    triangle: usize,
+    law: &PlaneLaw,
+    even: &EvenTriangle<N>,
+    sums: &mut Field<5>,
+) -> Result<(), SystemError> {
+    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+    let n = numbering.level.intervals;
+    let (slopes, area) = corner_slopes(&even.x)?;
+    let of_sign = [slopes.map(|slope| -slope), slopes];
+    let mut own = vec![[0.0; 5]; lattice::node_count(n)];
+    even.each(|at, u, sign| {
+        for (node, [xx, yy, xy, zz]) in at.into_iter().zip(straight_stresses(&u, &of_sign[usize::from(sign > 0.0)], law)) {
+            own[node].iter_mut().zip([xx, yy, xy, zz, 1.0]).for_each(|(sum, value)| *sum += area * value);
+        }
+    });
+    let numbers = numbering.triangle(mesh, triangle);
+    for ((i, j), own) in lattice::nodes(n).zip(own) {
+        sums.at_mut(numbers.node(i, j)).iter_mut().zip(own).for_each(|(sum, value)| *sum += value);
+    }
+    Ok(())
 }

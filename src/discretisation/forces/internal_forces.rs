@@ -61,7 +61,7 @@ fn each_force(
     }
     let stiffness = MacroStiffness::new(mesh, triangle, numbering.level, law)?;
     let numbers = numbering.triangle(mesh, triangle);
-    let local: Vec<Point> = lattice::nodes(n).map(|(i, j)| u.point(numbers.node(i, j))).collect();
+    let local = problem.on_lattice(triangle, u);
     for (at, (i, j)) in lattice::nodes(n).enumerate() {
         let force = stiffness.row(i, j).map(|((k, l), block)| times(block, &local[lattice::index(n, k, l)])).sum();
         take(numbers.node(i, j), force, local[at]);
