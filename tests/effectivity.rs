@@ -209,3 +209,71 @@ output.fields = false
     assert!((found / force - 1.0).abs() < 1e-3, "{found} and {force}");
     assert_eq!(free.number("/contact/seam/missing_beyond"), 0.0, "{}", free.said());
 }
+
+/// A clamped beam over a wavy base, apart from it at rest: where it comes to lie Γ_C is not on the first mesh, and nothing presses there.
+/// All of the contact is taken up by the last mesh, however narrow it is beside an edge.
+#[test]
+fn a_contact_that_is_lost_as_a_whole_is_taken_up_again() {
+    let wave = |x: f64| {
+        let turn = |period: f64, phase: f64| 2.0 * std::f64::consts::PI * x / period + phase;
+        -0.0263 * (1.0 + turn(2.5, 3.26).cos()) - 0.008 * (1.0 + turn(1.823, 0.0).sin()) - 0.03
+    };
+    let mesh = Mesh {
+        bodies: vec![
+            ("base", grid(60, 8, 11, move |u, v| [10.0 * u, -4.0 * (1.0 - v) + v * wave(10.0 * u)]), ["foot", "", "base.top", ""]),
+            ("beam", grid(50, 5, 12, |u, v| [10.0 * u, 1.2 * v]), ["beam.low", "tip", "", "clamp"]),
+        ],
+    };
+    let case = r#"
+mesh = { file = "mesh.msh", order = 2 }
+body.base = { young = 2.1e5, poisson = 0.3 }
+body.beam = { young = 2.1e5, poisson = 0.3 }
+geometry.wave = { curves = ["base.top"], x = "t", y = "-0.0263*(1+cos(2*pi*t/2.5+3.26))-0.008*(1+sin(2*pi*t/1.823))-0.03", t = [0.0, 10.0] }
+support.foot = { on = "foot", ux = 0.0, uy = 0.0 }
+support.clamp = { on = "clamp", ux = 0.0, uy = 0.0 }
+support.tip = { on = "tip", ux = 0.0 }
+load.tip = { on = "tip", traction = [0.0, -16.6] }
+contact.seam = { between = ["base.top", "beam.low"] }
+output.fields = false
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    let found = Run::file(&file).set("accuracy.force", 0.02).ranks(2).ended().number("/contact/seam/force");
+    let wanted = Run::file(&file).set("contact.seam.ends", "fixed").set("accuracy.force", 0.005).converged();
+    let wanted = wanted.number("/contact/seam/force");
+    assert!(wanted > 0.0 && (found / wanted - 1.0).abs() < 0.02, "{found} and {wanted}");
+}
+
+/// A beam on two humps that are alike, in one contact: by statics each carries half of the load. The sides touch first at both: a force
+/// on one of them alone would let the beam turn.
+#[test]
+fn a_beam_rests_on_two_humps_of_one_contact() {
+    let hump = |x: f64| -0.03 * (1.0 + (0.5 * std::f64::consts::PI * x).cos());
+    let along = |u: f64| 10.0 * u - 5.0;
+    let mesh = Mesh {
+        bodies: vec![
+            ("base", grid(50, 8, 11, move |u, v| [along(u), -5.0 * (1.0 - v) + v * hump(along(u))]), ["foot", "", "humps", ""]),
+            ("beam", grid(40, 6, 12, move |u, v| [along(u), 2.0 * v]), ["beam.low", "", "beam.top", ""]),
+        ],
+    };
+    let case = r#"
+mesh = { file = "mesh.msh", order = 2, refine = 1 }
+body.base = { young = 2.1e5, poisson = 0.3 }
+body.beam = { young = 2.1e5, poisson = 0.3 }
+geometry.humps = { curves = ["humps"], x = "t", y = "-0.03*(1+cos(2*pi*t/4))", t = [-5.0, 5.0] }
+support.foot = { on = "foot", ux = 0.0, uy = 0.0 }
+support.beam = { body = "beam", mean = true, ux = 0.0 }
+load.top = { on = "beam.top", pressure = 20.0 }
+contact.seam = { between = ["humps", "beam.low"] }
+output.fields = false
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    for between in [["humps", "beam.low"], ["beam.low", "humps"]] {
+        let ended = Run::file(&file).set("contact.seam.between", format!("{between:?}")).ranks(2).converged();
+        assert!((ended.number("/contact/seam/force") / 200.0 - 1.0).abs() < 1e-4, "{}", ended.said());
+        let zones = ended.value("/contact/seam/zones");
+        let shares: Vec<f64> = zones.as_array().expect("zones").iter().map(|zone| zone["share"].as_f64().expect("a share")).collect();
+        assert!((shares[..shares.len() / 2].iter().sum::<f64>() - 0.5).abs() < 0.005, "{shares:?}");
+    }
+}

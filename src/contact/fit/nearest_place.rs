@@ -14,6 +14,10 @@ const PLACES_IN_A_SMALLER_WINDOW: usize = 16;
 /// Number of windows: the last has steps of a millionth of the first one's.
 const WINDOWS: usize = 6;
 
+/// Share of the gap between two places at which both are as near as the other: sides that are round all over never fall below what they
+/// have parted, the humps of a wave touch.
+const AGAIN: f64 = 0.5;
+
 /// Share of a side over which its curvature is taken.
 const ALONG: f64 = 1e-3;
 
@@ -49,7 +53,8 @@ impl PointContact {
 }
 
 /// The place where the gap between undeformed sides is smallest, within `reach` of `around` along body 1's side; nothing if it is
-/// smallest at an end of that, unless both sides go on there as their own images at the axis of revolution.
+/// smallest at an end of that, unless both sides go on there as their own images at the axis of revolution, or if the sides come near
+/// again beside it.
 pub fn point_contact([first, second]: [&SmoothSide; 2], around: Point, reach: f64) -> Option<PointContact> {
     let curve = first.curve(Configuration::Reference);
     let gap = |t: f64| {
@@ -62,14 +67,29 @@ pub fn point_contact([first, second]: [&SmoothSide; 2], around: Point, reach: f6
         let places = if window == 0 { PLACES } else { PLACES_IN_A_SMALLER_WINDOW };
         let at = |k: usize| middle + half * (2.0 * k as f64 / places as f64 - 1.0);
         let is_there = |k: &usize| first.turn().is_some() || (0.0..=first.length()).contains(&at(*k));
-        let gaps = (0..=places).filter(is_there).map(|k| (k, gap(at(k))));
-        let (least, _) = gaps.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
+        let gaps: Vec<(usize, f64)> = (0..=places).filter(is_there).map(|k| (k, gap(at(k)))).collect();
+        let &(least, nearest) = gaps.iter().min_by(|(_, a), (_, b)| a.total_cmp(b))?;
         if window == 0 && (least == 0 || least == places || !is_there(&(least - 1)) || !is_there(&(least + 1))) {
             return at_pole([first, second], curve.point(at(least)), 2.0 * half / places as f64);
+        }
+        let is_beside = |k: usize| first.turn().is_none_or(|turn| (at(k) - at(least)).abs() < 0.5 * turn);
+        let parted = |(k, gap): &(usize, f64)| is_beside(*k).then_some(gap - nearest);
+        let (behind, ahead) = gaps.split_at(gaps.partition_point(|(k, _)| *k <= least));
+        if window == 0 && (falls_again(ahead.iter().filter_map(parted)) || falls_again(behind.iter().rev().filter_map(parted))) {
+            return None;
         }
         (middle, half) = (at(least), 2.0 * half / places as f64);
     }
     Some(touching([first, second], curve.point(middle), bulge))
+}
+
+/// Whether sides that part from the place where they are nearest come together again: by half of how far they have parted.
+fn falls_again(parted: impl Iterator<Item = f64>) -> bool {
+    let mut most = 0.0_f64;
+    parted.into_iter().any(|parted| {
+        most = most.max(parted);
+        parted < AGAIN * most
+    })
 }
 
 /// The contact of two sides at a pole of both that is no farther than a step from a place; nothing if there is none.

@@ -201,17 +201,18 @@ impl Following {
         let mut is_lost = false;
         for (at, contact) in problem.contacts.iter().enumerate() {
             let pressure = solution.pressure(contact);
-            // Where the force tells the ends, edges about as wide as the contact bend into each other beside it.
-            let meeting = contact.known.meeting.as_ref().filter(|_| ends_by_force(&pressure, least).is_none());
-            let Some(meeting) = meeting else { continue };
+            let Some(meeting) = &contact.known.meeting else { continue };
             let mut sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, displacement);
             meeting.begin(&mut sides);
             let overlap = meeting.overlap_beyond(&sides, &contact.pair, &contact.boundary, contact.edge_length());
             let worth = missing_beyond(contact, overlap.lost, pressure.force());
-            if contact.has_free_ends() && !self.taken_up[at] && worth.is_some_and(|worth| worth > MOST_LOST) {
+            let counts = worth.map_or(overlap.lost > MOST_BEYOND * contact.boundary.length(), |worth| worth > MOST_LOST);
+            // Where the force tells the ends, edges about as wide as the contact bend into each other beside it.
+            let by_force = || ends_by_force(&pressure, least).is_some();
+            if contact.has_free_ends() && !self.taken_up[at] && counts {
                 (self.taken_up[at], self.ends[at], is_lost) = (true, [None; 2], true);
-                (known[at].ends, known[at].segments) = (Some(overlap.ends), None);
-            } else if overlap.depth > MOST_BEYOND * contact.boundary.length() {
+                known[at] = Known { ends: Some(overlap.ends), segments: None, touch: None, ..known[at].clone() };
+            } else if overlap.depth > MOST_BEYOND * contact.boundary.length() && !by_force() {
                 return Err(Failure::Beyond { contact: contact.pair.name.clone(), depth: overlap.depth });
             }
         }
