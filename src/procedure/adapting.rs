@@ -124,7 +124,7 @@ impl Procedure<'_> {
         // Clocks differ from rank to rank.
         let late = self.session.any(late);
         let all = [
-            (!solved.is_solved() || solved.ending.is_adrift(), SequenceEnd::Unsolved),
+            (!solved.is_solved(), SequenceEnd::Unsolved),
             (solved.is_idle(self.session) || adaptation.is_reached(), SequenceEnd::Reached),
             (late, SequenceEnd::Seconds),
             (self.is_unbounded(adaptation, solved), SequenceEnd::Unbounded),

@@ -20,11 +20,6 @@ impl Ending {
         matches!(self, Self::Converged(_))
     }
 
-    /// Whether nothing drives and nothing holds a body: no other mesh and no other start does.
-    pub fn is_adrift(&self) -> bool {
-        matches!(self, Self::NotConverged(Failure::Adrift(_)))
-    }
-
     /// By what share of its length a contact boundary would still move that stands to what the mesh is exact for; zero if none would.
     pub fn would_move(&self) -> f64 {
         match self {
@@ -124,9 +119,6 @@ pub enum Failure {
     /// A body that supports and contact do not hold, with what would.
     #[error("{0}")]
     NotHeld(String),
-    /// A body that nothing drives, and that supports and contact do not hold on any mesh, with what would.
-    #[error("{0}")]
-    Adrift(String),
     /// The linear solver.
     #[error("linear solver: {reason} after {iterations} iterations, residual {residual:.1e}")]
     LinearSolver {

@@ -34,5 +34,5 @@ impl Procedure<'_> {
 
 /// Whether another start may lead to a solution: not where a body is loose.
 fn may_come_to_more(ending: &Ending) -> bool {
-    !matches!(ending, Ending::Converged(_) | Ending::NotConverged(Failure::NotHeld(_) | Failure::Adrift(_)))
+    !matches!(ending, Ending::Converged(_) | Ending::NotConverged(Failure::NotHeld(_)))
 }

@@ -160,12 +160,18 @@ impl Meeting {
         let ends = boundary.ends();
         let own = OwnCurve::of_pair([first, second], pair);
         let margins = if own.is_some() { ends.map(|t| margin / boundary.speed(t)) } else { [margin; 2] };
+        // Γ_C may lie across the seam of a closed side: places are counted from its middle.
+        let turn = own.as_ref().map_or(first.turn(), |own| own.curve.period());
+        let middle = 0.5 * (ends[0] + ends[1]);
         let node = |node: usize| {
             let place = own.as_ref().map_or(first.parameters[node], |own| own.node(node));
+            let place = turn.map_or(place, |turn| place - turn * ((place - middle) / turn).round());
             let gaps = first.facing_gaps(node, second, pair, 1e-9 * second.length());
-            ((place - ends[1]).max(0.0) + (place - ends[0]).min(0.0), gaps.map_or(0.0, |gaps| -gaps.now))
+            (place, gaps.map_or(0.0, |gaps| -gaps.now))
         };
-        let nodes: Vec<_> = (0..first.points.len()).map(node).collect();
+        let mut nodes: Vec<_> = (0..first.points.len()).map(node).collect();
+        nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        nodes.iter_mut().for_each(|(place, _)| *place = (*place - ends[1]).max(0.0) + (*place - ends[0]).min(0.0));
         let beyond = nodes.iter().filter(|(away, _)| *away < -margins[0] || *away > margins[1]);
         let mut found = OverlapBeyond { depth: beyond.fold(0.0, |depth, node| depth.max(node.1)), lost: 0.0, ends };
         for &(away, overlap) in rows_beyond(&nodes).into_iter().flatten() {

@@ -22,9 +22,6 @@ use std::ops::Range;
 /// Cosine of the angle (8 degrees) between a chord's normal and that of its arc at most.
 const ALIKE: f64 = 0.99;
 
-/// Multipliers beside one that holds a body in one direction that are tried for the others.
-const BESIDE: usize = 2;
-
 /// Words for a body that neither supports nor the active multipliers hold; nothing if all are held. **Collective**
 pub fn not_held(problem: &Discretisation, active: &[bool], session: &Session) -> Option<String> {
     Restraints::of(problem, session).not_held(active)
@@ -71,28 +68,18 @@ pub fn needed_contacts(problem: &Discretisation, active: &[bool], session: &Sess
 
 /// Of the open multipliers those that hold every body if they close: for one motion after the other that nothing holds, the one with
 /// the largest `force` on the contact that the loads drive the body against, or on any of its contacts where there is none. In a box
-/// with clearance the wall that a body is driven off may be as near as the one that stops it. Where a body has one already, those
-/// beside it are tried first: to close a clearance at two places far apart presses the bodies into each other. **Collective**
+/// with clearance the wall that a body is driven off may be as near as the one that stops it. **Collective**
 pub fn few_that_hold(problem: &Discretisation, active: &[bool], force: impl Fn(usize) -> f64, session: &Session) -> Vec<usize> {
     let whole = Restraints::of(problem, session);
     let (mut closed, mut few) = (active.to_vec(), Vec::new());
-    // The last one that was closed against nothing that drives, and the body that it holds.
-    let mut before: Option<(usize, usize)> = None;
     while let Some(mechanism) = whole.mechanism(&closed) {
         let stops = whole.free(|free| free.stopped_by(&whole.touches(free.extents, &vec![true; closed.len()])), &mechanism);
         let body = problem.scene.mesh.pieces[mechanism.piece].body;
-        let own = || problem.contacts.iter().filter(|contact| contact.bodies.contains(&body));
+        let own = problem.contacts.iter().filter(|contact| contact.bodies.contains(&body));
         let open = |range: Range<usize>| range.filter(|&i| !closed[i]).max_by(|&a, &b| force(a).total_cmp(&force(b)));
         let stopping = stops.and_then(|at| open(problem.contacts[at].range()));
-        let beside = before.filter(|(_, of)| *of == body).and_then(|(last, _)| {
-            let range = own().find(|contact| contact.range().contains(&last))?.range();
-            range.filter(|&i| !closed[i] && i.abs_diff(last) <= BESIDE).min_by_key(|i| i.abs_diff(last))
-        });
-        let any = || own().filter_map(|contact| open(contact.range())).max_by(|&a, &b| force(a).total_cmp(&force(b)));
-        let Some(next) = stopping.or(beside).or_else(any) else { break };
-        if stopping.is_none() && beside.is_none() {
-            before = Some((next, body));
-        }
+        let any = || own.filter_map(|contact| open(contact.range())).max_by(|&a, &b| force(a).total_cmp(&force(b)));
+        let Some(next) = stopping.or_else(any) else { break };
         closed[next] = true;
         few.push(next);
     }

@@ -1,10 +1,10 @@
 //! The loop over active sets.
 
-use crate::contact::{ActiveSet, SetChange};
-use crate::discretisation::{Solution, SystemError, adrift, bilateral, few_that_hold, not_held};
+use crate::contact::{ActiveSet, GapChoice, SetChange};
+use crate::discretisation::{Contact, Solution, SystemError, adrift, bilateral, few_that_hold, not_held};
 use crate::procedure::ending::{Ending, Failure, Standing};
 use crate::procedure::sets::contact_state::ContactState;
-use crate::procedure::sets::first_set::{begin_with, stays_closed};
+use crate::procedure::sets::first_set::{carried_set, first_set};
 use crate::procedure::sets::pass::{Pass, relative_change};
 use crate::procedure::sets::residual_scale::{LOOSE, last_residual, share, share_of_forces};
 use crate::procedure::sets::unsettled::{going_on, places};
@@ -102,8 +102,6 @@ pub struct ContactLoop<'s, 'a> {
     system: &'s mut System<'a>,
     /// The set to solve for next; runs ahead of that of the system after a solve.
     set: ActiveSet,
-    /// Those of the present set that were closed for no other reason than to hold a body.
-    forced: Vec<usize>,
     position: LoopPosition,
     /// How far the last solve was asked to go.
     wanted: f64,
@@ -132,7 +130,17 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         let problem = system.problem();
         let mut set = ActiveSet::new(bilateral(&problem.contacts));
         let is_carried = start.is_some() && !position.is_hard;
-        let forced = begin_with(system, &mut set, start)?;
+        if let Some(start) = start {
+            set.start_from(&start.active);
+            let carried = carried_set(system, set.active(), &start.displacement);
+            if carried != set.active() {
+                set.start_from(&carried);
+            }
+            system.begin(&Start { active: set.active().to_vec(), ..start })?;
+        } else if let Some(first) = problem.first_set.clone().or_else(|| first_set(system)) {
+            set.start_from(&first);
+            system.set_active(set.active())?;
+        }
         let relative = last_residual(system, tolerance)?;
         let share = share_of_forces(system, share(system)?, relative)?;
         let last = share * relative;
@@ -145,8 +153,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         };
         let known = |u: &[f64]| if u.iter().any(|value| *value != 0.0) { u.to_vec() } else { Vec::new() };
         let (before, wanted) = (system.with_free_displacement(known), tolerance.residual());
-        let (kept, passes) = (0, Vec::new());
-        Ok(Self { system, set, forced, position, wanted, share, tolerance: last, goal, is_carried, kept, before, passes })
+        Ok(Self { system, set, position, wanted, share, tolerance: last, goal, is_carried, kept: 0, before, passes: Vec::new() })
     }
 
     /// Solves until the active set stands and the last residual is below the tolerance; `report` is called with every pass.
@@ -189,11 +196,14 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         let solve = self.system.solve(residual)?;
         let state = ContactState::new(self.system);
         let failed = matches!(solve.ending, LinearEnding::Failed { .. });
-        let forced = std::mem::take(&mut self.forced);
         let next_set = if failed { None } else { Some(self.next_set(&state)) };
         self.record(&solve, &state, next_set.as_ref());
-        if let Some(words) = self.adrift(&forced) {
-            return Ok(Next::End(Ending::NotConverged(Failure::Adrift(words))));
+        // Bodies that nothing drives and nothing holds have forces of rounding alone, by which sets change for ever.
+        let is_first = self.position.passes == 0 && self.passes.len() == 1;
+        if let Some(words) =
+            is_first.then(|| adrift(self.system.problem(), self.system.active(), self.system.session())).flatten()
+        {
+            return Ok(Next::End(Ending::NotConverged(Failure::NotHeld(words))));
         }
         Ok(match next_set {
             None => Next::End(self.after_failure(solve.ending, &state)),
@@ -252,24 +262,8 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
             return NextSet { change, lost };
         }
         self.kept += 1;
-        self.forced = few_that_hold(problem, self.set.active(), force, self.system.session());
-        NextSet { change: self.set.keep(&self.forced, self.system.active()), lost: None }
-    }
-
-    /// Words for a body that nothing drives, and that touches no other but where it was `forced` to, before or in the next set: its
-    /// forces are rounding, by which sets change for ever. **Collective**
-    fn adrift(&self, forced: &[usize]) -> Option<String> {
-        let is_first = self.position.passes == 0 && self.passes.len() == 1;
-        if !is_first && forced.is_empty() {
-            return None;
-        }
-        // What a body that nothing held is found to press on says nothing.
-        let mut touches = self.system.active().to_vec();
-        if !forced.is_empty() {
-            touches.iter_mut().zip(self.set.active()).for_each(|(was, is)| *was |= is);
-        }
-        forced.iter().chain(&self.forced).for_each(|&i| touches[i] = false);
-        adrift(self.system.problem(), &touches, self.system.session())
+        let few = few_that_hold(problem, self.set.active(), force, self.system.session());
+        NextSet { change: self.set.keep(&few, self.system.active()), lost: None }
     }
 
     /// Relative residual that the last solve is to reach, of what strains.
@@ -394,4 +388,10 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
     fn change(&self) -> f64 {
         self.system.with_free_displacement(|now| relative_change(now, &self.before, self.system.session()))
     }
+}
+
+/// Whether contacts that are closed all along on one mesh will be so on the next: there is no gap, or they end where the
+/// pressure does.
+fn stays_closed(contacts: &[Contact]) -> bool {
+    contacts.iter().all(|contact| contact.pair.has_free_ends() || matches!(contact.pair.gap, GapChoice::Closed))
 }
