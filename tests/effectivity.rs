@@ -220,7 +220,11 @@ fn a_contact_that_is_lost_as_a_whole_is_taken_up_again() {
     };
     let mesh = Mesh {
         bodies: vec![
-            ("base", grid(60, 8, 11, move |u, v| [10.0 * u, -4.0 * (1.0 - v) + v * wave(10.0 * u)]), ["foot", "", "base.top", ""]),
+            (
+                "base",
+                grid(60, 8, 11, move |u, v| [10.0 * u, -4.0 * (1.0 - v) + v * wave(10.0 * u)]),
+                ["foot", "", "base.top", ""],
+            ),
             ("beam", grid(50, 5, 12, |u, v| [10.0 * u, 1.2 * v]), ["beam.low", "tip", "", "clamp"]),
         ],
     };
@@ -273,7 +277,8 @@ output.fields = false
         let ended = Run::file(&file).set("contact.seam.between", format!("{between:?}")).ranks(2).converged();
         assert!((ended.number("/contact/seam/force") / 200.0 - 1.0).abs() < 1e-4, "{}", ended.said());
         let zones = ended.value("/contact/seam/zones");
-        let shares: Vec<f64> = zones.as_array().expect("zones").iter().map(|zone| zone["share"].as_f64().expect("a share")).collect();
+        let shares: Vec<f64> =
+            zones.as_array().expect("zones").iter().map(|zone| zone["share"].as_f64().expect("a share")).collect();
         assert!((shares[..shares.len() / 2].iter().sum::<f64>() - 0.5).abs() < 0.005, "{shares:?}");
     }
 }

@@ -303,6 +303,41 @@ mod tests {
         assert_eq!(meeting.overlap_beyond(&lowered(|_| -0.01), &pair(), &part([0.5, 1.0]), 0.1).depth, 0.0, "they are apart");
     }
 
+    /// The upper block lies in the lower one around x = .3 and from 1.2 on, and Γ_C has the second stretch alone.
+    #[test]
+    fn the_ends_take_in_what_overlaps_apart_from_them() {
+        let meeting = Meeting::open([0, 0], [0..17, 0..33], [0.0, 2.0]);
+        let sides = lowered(|x| if x < 0.5 { 0.02 - 0.1 * (x - 0.3).abs() } else { 0.05 * (x - 1.2) });
+        let found = |ends| meeting.overlap_beyond(&sides, &pair(), &part(ends), 0.1);
+        // Nodes of body 1 at .125, .25 and .375 overlap, by .0025, .015 and .0125.
+        let apart = found([1.0, 2.0]);
+        assert!((apart.lost - 0.015).abs() < 1e-3, "{}", apart.lost);
+        assert!((apart.ends[0] - 0.025).abs() < 0.02 && apart.ends[1] == 2.0, "{:?}", apart.ends);
+        let beside = found([0.3, 2.0]);
+        assert_eq!((beside.lost, beside.ends), (0.0, [0.3, 2.0]), "what goes on from its end is its own");
+    }
+
+    /// A pin in a bore, drawn in it where Γ_C lies, which goes across the seam of both: nothing lies beyond it.
+    #[test]
+    fn a_contact_boundary_across_the_seam_of_its_sides_has_lost_nothing() {
+        let ring = |radius: f64, x: f64, hand: f64| {
+            let points: Vec<Point> = (0..=40)
+                .map(|k| (9.0 * f64::from(k)).to_radians())
+                .map(|a| Point::new(x + radius * a.cos(), radius * a.sin()))
+                .collect();
+            vec![SmoothSide::through(Curve::Circle { centre: [x, 0.0], radius }, points.clone(), points, hand, 2, true)]
+        };
+        let sides = [ring(1.0, 0.05, 1.0), ring(1.02, 0.0, -1.0)];
+        let meeting = Meeting::within(&sides, &pair(), 1.0).expect("one stretch").expect("they are near all around");
+        let circle = Curve::Circle { centre: [0.0, 0.0], radius: 1.0 };
+        let found = |ends| {
+            meeting.overlap_beyond(&sides, &pair(), &ContactBoundary::new(circle.clone(), ends, Point::new(1.0, 0.0)), 0.1)
+        };
+        let across = found([-1.5, 1.5]);
+        assert_eq!((across.depth, across.lost), (0.0, 0.0));
+        assert!(found([1.7, 4.5]).depth > 0.02, "the other half has none of it");
+    }
+
     /// A round body on a plane, with edges of .02 where they touch and of up to 1 beside them: what lies half-way bends as evenly as
     /// between fine edges. With the long ones it was tilted by 1e-3.
     #[test]

@@ -133,3 +133,15 @@ fn curvature(side: &SmoothSide, x: Point, [from, to]: [f64; 2]) -> f64 {
     let along = curve.tangent(side.nearest(x, Configuration::Reference)).dot(&shape.tangent(t)).signum();
     side.hand * along * turn / ((to - from) * shape.derivative(t).norm())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sides_that_come_near_again_do_not_touch_at_one_point() {
+        let again = |parted: &[f64]| falls_again(parted.iter().copied());
+        assert!(!again(&[0.1, 0.4, 0.9, 1.6]) && !again(&[0.1, 0.4, 0.3, 0.25]) && !again(&[0.0, 0.0]) && !again(&[]));
+        assert!(again(&[0.1, 0.4, 0.1, 0.0]) && again(&[0.0, 1.0, 0.49]));
+    }
+}

@@ -5,6 +5,9 @@ use crate::discretisation::contacts::contact::Contact;
 use crate::discretisation::solution::Solution;
 use crate::geometry::{Formula, Point};
 
+/// Share of the sum of its parts below which a force is rounding.
+const NO_FORCE: f64 = 1e-9;
+
 /// λ of one contact, with the set that it was solved for.
 #[derive(Clone, Copy)]
 pub struct ContactPressure<'a> {
@@ -53,16 +56,19 @@ impl<'a> ContactPressure<'a> {
         self.values.iter().enumerate().map(|(i, value)| value * self.contact.multipliers.integral(i)).sum()
     }
 
-    /// The centre of λ in either sign, where its force acts; nothing if nothing presses.
+    /// Where the force of λ acts: its centre, beyond its ends where it pulls on one side as it presses on the other; that of its size
+    /// where nothing but a moment is left; nothing if nothing presses.
     pub fn centre(&self) -> Option<Point> {
         let boundary = &self.contact.boundary;
         let parts = boundary.gauss_on(0..boundary.segments(), 3).map(|(k, z, _, length)| {
             let t = boundary.parameter_on(k, z);
-            let force = self.value(k, z).abs() * length * boundary.width(t);
-            (force, force * boundary.point(t))
+            let force = self.value(k, z) * length * boundary.width(t);
+            [force, force.abs()].map(|force| (force, force * boundary.point(t)))
         });
-        let (force, moment) = parts.fold((0.0, Point::zeros()), |sum, part| (sum.0 + part.0, sum.1 + part.1));
-        (force > 0.0).then(|| moment / force)
+        let none = [(0.0, Point::zeros()); 2];
+        let [(force, moment), (size, of_size)] =
+            parts.fold(none, |sum, part| [0, 1].map(|k| (sum[k].0 + part[k].0, sum[k].1 + part[k].1)));
+        (size > 0.0).then(|| if force.abs() > NO_FORCE * size { moment / force } else { of_size / size })
     }
 
     /// The largest value of a multiplier.
@@ -168,5 +174,24 @@ impl Solution {
     /// The pressure on one of the contacts that were solved for.
     pub fn pressure<'a>(&'a self, contact: &'a Contact) -> ContactPressure<'a> {
         ContactPressure::new(contact, &self.multipliers, &self.active)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{Known, MultiplierSpace};
+    use crate::discretisation::samples::{blocks, contact, pair};
+
+    /// On four segments of a seam over [0, 2] that may pull: the force acts where its moment says.
+    #[test]
+    fn a_force_acts_where_its_moment_is_its_own() {
+        let contact = contact(&blocks(pair(MultiplierSpace::P0, 4), |_| Point::zeros(), Vec::new()), Known::default());
+        let place = |values: [f64; 4]| ContactPressure { contact: &contact, values: &values, active: &[true; 4] }.centre();
+        let at = |values| place(values).expect("it presses").x;
+        assert!((at([1.0, 1.0, 1.0, 1.0]) - 1.0).abs() < 1e-12 && (at([0.0, 0.0, 3.0, 0.0]) - 1.25).abs() < 1e-12);
+        assert!((at([-1.0, 0.0, 0.0, 2.0]) - 3.25).abs() < 1e-12, "beyond the seam");
+        assert!((at([-1.0, 0.0, 0.0, 1.0]) - 1.0).abs() < 1e-12, "a moment alone");
+        assert_eq!(place([0.0; 4]), None);
     }
 }

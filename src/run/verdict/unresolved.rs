@@ -141,7 +141,13 @@ impl Judged<'_> {
     fn remedy(&self, contact: &str) -> String {
         if self.case.accuracy.is_some() {
             let tolerance = 0.25 * share_of_nothing(self.case.accuracy.as_ref());
-            return format!("ask for a smaller error, as in [accuracy.contact.{contact}] force = {tolerance:.0e}");
+            // A force that statics tells is exact on any mesh: another error of it makes none finer.
+            let error = self.summary.estimate.contact.get(contact).and_then(|own| own.force);
+            let (quantity, tolerance) = match error.is_some_and(|error| error < tolerance) {
+                true => ("pressure", 4.0 * tolerance),
+                false => ("force", tolerance),
+            };
+            return format!("ask for a smaller error, as in [accuracy.contact.{contact}] {quantity} = {tolerance:.0e}");
         }
         finer_mesh(self.case, refinements_wanted(self.summary, self.case), "force")
     }
@@ -150,7 +156,22 @@ impl Judged<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::summary::ContactEstimate;
     use crate::run::verdict::trust::samples::case;
+
+    /// Where the force is known better than would be asked for, another quantity makes the mesh finer.
+    #[test]
+    fn an_error_that_is_small_enough_is_not_asked_for() {
+        for (error, told) in
+            [(Some(1e-8), "[accuracy.contact.seam] pressure = 1e-2"), (None, "[accuracy.contact.seam] force = 3e-3")]
+        {
+            let contact = ContactSummary { unresolved_force: Some(1.0), force: Some(1.0), ..ContactSummary::default() };
+            let mut summary = Summary { contact: [("seam".to_owned(), contact)].into(), ..Summary::default() };
+            summary.estimate.contact.insert("seam".into(), ContactEstimate { force: error, ..ContactEstimate::default() });
+            let words = unresolved(&summary, &case(&["accuracy.force=1e-2"]), None).expect("it is within segments");
+            assert!(words.ends_with(told), "{words}");
+        }
+    }
 
     /// Ends that move because the bodies have slid far are not brought to rest by a finer mesh.
     #[test]
