@@ -494,6 +494,40 @@ load.bore = { on = "hub.in", pressure = 100.0 }
     assert!(held.said().contains("nothing presses on contact first"), "{}", held.said());
 }
 
+/// A ring on a hub, drawn in it and held in its turn alone: where heat opens the joint the ring is held by rounding. It is told what holds
+/// it, on one mesh and where meshes are to adapt; where heat closes a clearance, contact holds it.
+#[test]
+fn a_ring_that_heat_loosens_is_to_be_held() {
+    let mesh = Mesh {
+        bodies: vec![
+            ("hub", whole_ring([4.0, 6.0], 40), ["hub.in", "", "hub.out", ""]),
+            ("ring", whole_ring([6.0, 9.0], 30), ["ring.in", "", "ring.out", ""]),
+        ],
+    };
+    let case = r#"
+mesh.file = "mesh.msh"
+body.hub = { young = 2.1e5, poisson = 0.3, expansion = 1.2e-5, temperature = -60.0 }
+body.ring = { young = 7e4, poisson = 0.33, expansion = 2.3e-5, temperature = 20.0 }
+geometry.joint = { curves = ["hub.out", "ring.in"], circle = { centre = [0, 0], radius = 6 } }
+contact.joint = { between = ["hub.out", "ring.in"], gap = -0.004 }
+support.hub = { body = "hub", mean = true, ux = 0.0, uy = 0.0, angle = 0.0 }
+support.ring = { body = "ring", mean = true, angle = 0.0 }
+load.rim = { on = "ring.out", pressure = 15.0 }
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    let run = |key: &str, value: &str, ranks: usize| Run::file(&file).set(key, value).ranks(ranks);
+    for (key, value, ranks) in [("mesh.refine", "0", 1), ("mesh.refine", "2", 2), ("accuracy.energy", "0.01", 2)] {
+        let ended = run(key, value, ranks).ended();
+        assert_eq!(ended.code, Some(3), "{key}: {}", ended.said());
+        assert!(ended.said().contains("hold the one that is free in its mean"), "{key}: {}", ended.said());
+        let held = run(key, value, ranks).set("support.ring.ux", 0.0).set("support.ring.uy", 0.0).converged();
+        assert!(held.said().contains("nothing presses on contact joint"), "{key}: {}", held.said());
+    }
+    let hot = run("mesh.refine", "1", 2).set("contact.joint.gap", 0.004).set("body.hub.temperature", 90.0).converged();
+    assert!(hot.number("/contact/joint/force") > 0.0);
+}
+
 /// A ring around the origin; its sides are the bore and the rim.
 fn whole_ring([inner, outer]: [f64; 2], edges: usize) -> Block {
     let mut ring = grid(edges, 3, 7, |u, v| {
