@@ -218,7 +218,7 @@ impl SmoothSide {
 
     /// The point of the undeformed side that is nearest to `x`, and the outward normal there.
     pub fn nearest_place(&self, x: Point) -> (Point, Point) {
-        let t = self.undeformed.nearest(x).clamp(0.0, self.length());
+        let t = self.nearest(x, Configuration::Reference).clamp(0.0, self.length());
         (self.undeformed.point(t), turn_right(self.undeformed.tangent(t)) * self.hand)
     }
 
@@ -317,4 +317,22 @@ fn nodes_along(mesh: &MacroMesh, numbering: &Numbering, edges: &[u32]) -> Vec<Ed
         nodes.extend(along);
     }
     nodes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The last of 40 nodes of a circle is the first again, at angle 0: just before it the nearest place is no farther than just behind.
+    #[test]
+    fn the_nearest_place_of_a_closed_side_may_lie_on_either_side_of_its_seam() {
+        let at = |degrees: f64, radius: f64| radius * Point::new(degrees.to_radians().cos(), degrees.to_radians().sin());
+        let points: Vec<Point> = (0..=40).map(|k| at(9.0 * f64::from(k), 1.0)).collect();
+        let circle = Curve::Circle { centre: [0.0, 0.0], radius: 1.0 };
+        let side = SmoothSide::through(circle, points.clone(), points, 1.0, 1, true);
+        for degrees in [-20.0, -4.0, -0.5, 0.0, 0.5, 4.0, 20.0] {
+            let (place, _) = side.nearest_place(at(degrees, 1.1));
+            assert!((place - at(degrees, 1.0)).norm() < 1e-4, "{degrees}: {place}");
+        }
+    }
 }

@@ -22,11 +22,9 @@ pub fn nodal_stresses<const N: usize>(
     law: &PlaneLaw,
     heat: Option<&Heat>,
 ) -> Result<[([f64; 4], f64); N], BadJacobian> {
-    if heat.is_none() && law.plane != Plane::Revolution {
-        if N == 3 || is_straight(nodes) {
-            let (slopes, determinant) = corner_slopes(nodes)?;
-            return Ok(straight_stresses(u, &slopes, law).map(|stress| (stress, determinant)));
-        }
+    if heat.is_none() && law.plane != Plane::Revolution && (N == 3 || is_straight(nodes)) {
+        let (slopes, determinant) = corner_slopes(nodes)?;
+        return Ok(straight_stresses(u, &slopes, law).map(|stress| (stress, determinant)));
     }
     let mut found = [([0.0; 4], 0.0); N];
     for (found, l) in found.iter_mut().zip(NODES) {

@@ -57,8 +57,10 @@ impl PointContact {
 /// again beside it.
 pub fn point_contact([first, second]: [&SmoothSide; 2], around: Point, reach: f64) -> Option<PointContact> {
     let curve = first.curve(Configuration::Reference);
+    // A closed side goes on across its seam.
+    let place = |t: f64| curve.point(first.turn().map_or(t, |turn| t.rem_euclid(turn)));
     let gap = |t: f64| {
-        let x = curve.point(t);
+        let x = place(t);
         let (foot, outward) = second.nearest_place(x);
         (x - foot).dot(&outward)
     };
@@ -70,7 +72,7 @@ pub fn point_contact([first, second]: [&SmoothSide; 2], around: Point, reach: f6
         let gaps: Vec<(usize, f64)> = (0..=places).filter(is_there).map(|k| (k, gap(at(k)))).collect();
         let &(least, nearest) = gaps.iter().min_by(|(_, a), (_, b)| a.total_cmp(b))?;
         if window == 0 && (least == 0 || least == places || !is_there(&(least - 1)) || !is_there(&(least + 1))) {
-            return at_pole([first, second], curve.point(at(least)), 2.0 * half / places as f64);
+            return at_pole([first, second], place(at(least)), 2.0 * half / places as f64);
         }
         let is_beside = |k: usize| first.turn().is_none_or(|turn| (at(k) - at(least)).abs() < 0.5 * turn);
         let parted = |(k, gap): &(usize, f64)| is_beside(*k).then_some(gap - nearest);
@@ -80,7 +82,7 @@ pub fn point_contact([first, second]: [&SmoothSide; 2], around: Point, reach: f6
         }
         (middle, half) = (at(least), 2.0 * half / places as f64);
     }
-    Some(touching([first, second], curve.point(middle), bulge))
+    Some(touching([first, second], place(middle), bulge))
 }
 
 /// Whether sides that part from the place where they are nearest come together again: by half of how far they have parted.

@@ -38,7 +38,8 @@ const ALIKE: std::ops::Range<f64> = 0.5..2.0;
 /// Penetration beyond the ends, as a share of the length of Γ_C, that is no contact missed.
 const MOST_BEYOND: f64 = 1e-3;
 
-/// Force that overlaps all beyond the ends may be worth, relative to that found, before Γ_C takes them in.
+/// Force that overlaps all beyond the ends may be worth, relative to that found, before Γ_C takes them in: a tenth of what lets a
+/// force be doubted.
 const MOST_LOST: f64 = 1e-3;
 
 /// What follows from a solution.
@@ -185,7 +186,7 @@ impl Following {
     }
 
     /// What stands must not leave contact out: bodies that penetrate each other beyond the ends of Γ_C. What a boundary has lost it
-    /// takes up again, once on each mesh: the ends that do, in what the boundaries are placed by.
+    /// takes up again, once on each mesh: then gives what the boundaries are placed by, as `known` but for those ends.
     ///
     /// # Errors
     /// The failure, where bodies penetrate each other too deep.
@@ -201,18 +202,18 @@ impl Following {
         let mut is_lost = false;
         for (at, contact) in problem.contacts.iter().enumerate() {
             let pressure = solution.pressure(contact);
-            let Some(meeting) = &contact.known.meeting else { continue };
+            // Where the force tells the ends, edges about as wide as the contact bend into each other beside it.
+            let meeting = contact.known.meeting.as_ref().filter(|_| ends_by_force(&pressure, least).is_none());
+            let Some(meeting) = meeting else { continue };
             let mut sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, displacement);
             meeting.begin(&mut sides);
             let overlap = meeting.overlap_beyond(&sides, &contact.pair, &contact.boundary, contact.edge_length());
             let worth = missing_beyond(contact, overlap.lost, pressure.force());
             let counts = worth.map_or(overlap.lost > MOST_BEYOND * contact.boundary.length(), |worth| worth > MOST_LOST);
-            // Where the force tells the ends, edges about as wide as the contact bend into each other beside it.
-            let by_force = || ends_by_force(&pressure, least).is_some();
             if contact.has_free_ends() && !self.taken_up[at] && counts {
                 (self.taken_up[at], self.ends[at], is_lost) = (true, [None; 2], true);
-                known[at] = Known { ends: Some(overlap.ends), segments: None, touch: None, ..known[at].clone() };
-            } else if overlap.depth > MOST_BEYOND * contact.boundary.length() && !by_force() {
+                known[at] = Known { ends: Some(overlap.ends), segments: None, ..known[at].clone() };
+            } else if overlap.depth > MOST_BEYOND * contact.boundary.length() {
                 return Err(Failure::Beyond { contact: contact.pair.name.clone(), depth: overlap.depth });
             }
         }
