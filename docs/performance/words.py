@@ -248,8 +248,8 @@ def ranks_section(study):
         "## One rank and two",
         "![one and two ranks](figures/ranks.svg)",
         table(["pair", "unknowns", "s, 1 rank", "s, 2 ranks", "ratio"], rows),
-        f"Iterations {iterations}. Energies differ by {scientific(max(differences))} at most. Both ranks share the memory of one machine, "
-        "and its bandwidth; for more machines see [slurm.md](slurm.md).",
+        f"Iterations {iterations}. Energies differ by {scientific(max(differences))} at most. "
+        "For more machines see [slurm.md](slurm.md).",
     ]
     return "\n\n".join(parts)
 
