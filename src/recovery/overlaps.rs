@@ -38,7 +38,7 @@ pub fn missing_force(contact: &Contact, zones: &[[f64; 2]], points: &[TracePoint
     (Some(missing).filter(|missing| missing.is_finite()), 0.5 * sum)
 }
 
-/// Force that an overlap all `beyond` Γ_C (length) is worth, relative to the force found: that of [`missing_force`]. Γ_C is the part that
+/// Force that an overlap all `beyond` Γ_C (length) is worth, relative to the force found: `E δ/2`, however wide. Γ_C is the part that
 /// presses on the first mesh, and what presses elsewhere on a finer one is lost: on a beam beside its clamp 3.4 % of the force, worth
 /// 8 % by this.
 pub fn missing_beyond(contact: &Contact, beyond: f64, force: f64) -> Option<f64> {
