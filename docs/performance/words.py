@@ -31,7 +31,7 @@ def page(studies, small):
     speed, scaling, ranks = studies["speed_against_error"], studies["scaling"], studies["ranks"]
     parts = [
         "# Performance",
-        "Made by `docs/performance/make` from the studies in [cases/studies](../cases/studies/README.md), words and tables, too. "
+        "Made by `docs/performance/make` from the studies in [cases/studies](../cases/studies/README.md). "
         "Figures and fits are explained in [studies.md](studies.md).",
         SMALL if small else "",
         machine(studies),
