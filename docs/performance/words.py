@@ -72,8 +72,8 @@ def speed_section(study, small):
         "square on the rings.",
         "A run counts for a bound only if all finer runs of its line stay below it too.",
         "![time against error](figures/speed_against_error.svg)",
-        "All errors, their orders, time and iterations: [all diagrams](figures/speed_against_error_all.svg).",
-        "Seconds to an error below a bound, by the fastest run of each pair; a dash: no run meets it.",
+        "[All diagrams](figures/speed_against_error_all.svg).",
+        "Seconds to an error below a bound, by the fastest run of each pair, of all pairs in bold; a dash: no run meets it.",
     ]
     cases = unique(line["case"] for line in study["lines"])
     of_case = {case: [line for line in study["lines"] if line["case"] == case] for case in cases}
@@ -158,13 +158,8 @@ def met(bound, first, names):
 
 def scaling_section(study, small):
     header = ["pair", "unknowns", "Krylov iterations", "seconds", "of which in solves", "bytes for each unknown"]
-    rows, laws = [], []
+    laws = []
     for line in study["lines"]:
-        for point in listed(line):
-            unknowns, time = point["unknowns"], point["time"]["median"]
-            row = next(row for row in study["rows"] if row["result"] == point["result"])
-            cells = [count(unknowns), f"{point['iterations']:.0f}", seconds(time), seconds(row["time_s.solve"])]
-            rows.append([line["name"]] + cells + [f"{point['memory'] * 2**20 / unknowns:.0f}"])
         cost = line["cost"]
         if cost is not None:
             growth = f"grows like N^{cost['exponent']:.2f}" if cost["deviation"] <= 1.5 else "follows no power law"
@@ -175,7 +170,7 @@ def scaling_section(study, small):
         f"Example 1 with even meshes and segments, {' and '.join(map(str, ranks))} ranks, `tolerance = 1e-8`. Iterations are those on the "
         "finest mesh: of GMRES, with one cycle each, and above half a million unknowns of BiCGStab, with two.",
         "![time against unknowns](figures/scaling.svg)",
-        table(header, rows),
+        table(header, rows_of_runs(study, "time_s.solve")),
         f"Over the three largest meshes time {', and '.join(laws)}." if laws and not small else "",
     ]
     return "\n\n".join(part for part in parts if part)
@@ -186,20 +181,25 @@ def scaling_section(study, small):
 
 def brought_section(study):
     header = ["pair", "unknowns", "Krylov iterations", "seconds", "of which reading and dealing out", "bytes for each unknown"]
-    rows = []
-    for line in study["lines"]:
-        for point in listed(line):
-            unknowns = point["unknowns"]
-            row = next(row for row in study["rows"] if row["result"] == point["result"])
-            cells = [count(unknowns), f"{point['iterations']:.0f}", seconds(point["time"]["median"]), seconds(row["time_s.mesh"])]
-            rows.append([line["name"]] + cells + [f"{point['memory'] * 2**20 / unknowns:.0f}"])
     return "\n\n".join([
         "## Fine meshes from a file",
         "The same bars of up to 980 thousand irregular triangles, not refined, whose numbers have no order at all; 2 ranks, "
         "`tolerance = 1e-8`.",
         "![time against unknowns](figures/brought.svg)",
-        table(header, rows),
+        table(header, rows_of_runs(study, "time_s.mesh")),
     ])
+
+
+def rows_of_runs(study, part):
+    """A row for each run that is listed, with one part of its time beside the whole."""
+    rows = []
+    for line in study["lines"]:
+        for point in listed(line):
+            unknowns, time = point["unknowns"], point["time"]["median"]
+            row = next(row for row in study["rows"] if row["result"] == point["result"])
+            cells = [count(unknowns), f"{point['iterations']:.0f}", seconds(time), seconds(row[part])]
+            rows.append([line["name"]] + cells + [f"{point['memory'] * 2**20 / unknowns:.0f}"])
+    return rows
 
 
 # Solvers
