@@ -12,7 +12,7 @@ use crate::run::verdict::exact::compare;
 use crate::run::verdict::no_result::NO_NUMBERS;
 use crate::run::verdict::warnings::after::{apart, large_strains, loaded_points, slivers};
 use crate::run::verdict::warnings::before::{IDLE, TO_DRIVE};
-use crate::run::verdict::warnings::shrinking::ShrunkBody;
+use crate::run::verdict::warnings::shrinking::comes_loose;
 use crate::run::{Run, accuracy};
 use std::collections::BTreeMap;
 
@@ -45,9 +45,9 @@ impl Run<'_> {
             reason = format!("{IDLE}, if they are held; {TO_DRIVE}");
         }
         if status != Status::Converged
-            && let Some(body) = ShrunkBody::of(&solved.problem.scene, &solved.problem.finest().numbering)
+            && let Some(words) = comes_loose(&solved.problem.scene, &solved.problem.finest().numbering)
         {
-            reason = body.words();
+            reason = words;
         }
         let accuracy = adaptation.as_ref().map(accuracy::summarise);
         let summary = Summary { accuracy, status, ..summary };

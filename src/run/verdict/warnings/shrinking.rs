@@ -13,53 +13,38 @@ const ROUNDING: f64 = 1e-6;
 /// A mean motion that is held holds a shift if its direction has at least this part along it.
 const ALONG: f64 = 1e-6;
 
-/// A body that is cooler than what it touches, and comes loose there.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ShrunkBody {
-    /// Its name.
-    pub name: String,
-    /// Which of its two shifts nothing holds.
-    pub moves: [bool; 2],
-    /// The support that holds the rest of its mean motion, if there is one.
-    pub hold: Option<String>,
+/// Words for the body of a scene in the plane that shrinks evenly and comes loose from what it touches, if nothing else acts there and
+/// all contacts are its own: as small as its heat makes it, about the middle of its contacts, it touches none of them any more, and no
+/// stress is left. Where anything else acts, what it touches may follow it; what is cooled unevenly bends.
+pub fn comes_loose(scene: &Scene, numbering: &Numbering) -> Option<String> {
+    let mesh = &scene.mesh;
+    let mut cold = scene.clone();
+    cold.bodies.iter_mut().flat_map(|body| &mut body.parts).for_each(|part| part.heat = None);
+    if !scene.is_heated() || cold.is_pushed() || mesh.plane == Plane::Revolution {
+        return None;
+    }
+    let strains = strains(scene);
+    let mut warm = (0..mesh.bodies.len()).filter(|&body| strains[body] != [0.0; 2]);
+    let body = warm.next().filter(|&body| !held_bodies(scene)[body] && warm.next().is_none())?;
+    let pairs: Option<Vec<(&Pair, usize)>> = scene.pairs.iter().map(|pair| Some((pair, side(scene, pair, body)?))).collect();
+    let (pairs, [least, most], moves) = (pairs?, strains[body], free_shifts(scene, body));
+    let is_even = most < 0.0 && most - least < ROUNDING * -least;
+    let opens = |by: f64| pairs.iter().all(|(pair, _)| depth(scene, numbering, pair) < by);
+    let is_loose = is_even && moves != [false; 2] && opens(-most * least_reach(scene, &pairs)?);
+    is_loose.then(|| words(scene, body, moves))
 }
 
-impl ShrunkBody {
-    /// The body of a scene in the plane that shrinks evenly, if nothing else acts there and all contacts are its own: as small as its heat
-    /// makes it, about the middle of its contacts, it touches none of them any more, and no stress is left. Where anything else acts,
-    /// what it touches may follow it; what is cooled unevenly bends.
-    pub fn of(scene: &Scene, numbering: &Numbering) -> Option<Self> {
-        let mesh = &scene.mesh;
-        let mut cold = scene.clone();
-        cold.bodies.iter_mut().flat_map(|body| &mut body.parts).for_each(|part| part.heat = None);
-        if !scene.is_heated() || cold.is_pushed() || mesh.plane == Plane::Revolution {
-            return None;
-        }
-        let strains = strains(scene);
-        let mut warm = (0..mesh.bodies.len()).filter(|&body| strains[body] != [0.0; 2]);
-        let body = warm.next().filter(|&body| !held_bodies(scene)[body] && warm.next().is_none())?;
-        let pairs: Option<Vec<(&Pair, usize)>> = scene.pairs.iter().map(|pair| Some((pair, side(scene, pair, body)?))).collect();
-        let (pairs, [least, most], moves) = (pairs?, strains[body], free_shifts(scene, body));
-        let is_even = most < 0.0 && most - least < ROUNDING * -least;
-        let opens = |by: f64| pairs.iter().all(|(pair, _)| depth(scene, numbering, pair) < by);
-        let name = mesh.bodies[body].clone();
-        let hold = scene.means.iter().find(|hold| hold.body == name).map(|hold| hold.name.clone());
-        let comes_loose = is_even && moves != [false; 2] && opens(-most * least_reach(scene, &pairs)?);
-        comes_loose.then_some(Self { name, moves, hold })
-    }
-
-    /// What is said of it.
-    pub fn words(&self) -> String {
-        let keys = ["ux = 0.0", "uy = 0.0"].into_iter().zip(self.moves).filter(|(_, moves)| *moves);
-        let (name, keys) = (&self.name, keys.map(|(key, _)| key).collect::<Vec<_>>().join(" and "));
-        let remedy = match &self.hold {
-            Some(hold) => format!("write {keys} into [support.{hold}], too"),
-            None => format!("hold its mean, by a support with body = \"{name}\", mean = true, {keys}"),
-        };
-        format!(
-            "body {name} shrinks, as it is cooler than what it touches, so that all its contacts open, and nothing else holds it: {remedy}"
-        )
-    }
+/// What is said of a body that comes loose, of whose two shifts nothing holds these.
+fn words(scene: &Scene, body: usize, moves: [bool; 2]) -> String {
+    let keys = ["ux = 0.0", "uy = 0.0"].into_iter().zip(moves).filter(|(_, moves)| *moves);
+    let (name, keys) = (&scene.mesh.bodies[body], keys.map(|(key, _)| key).collect::<Vec<_>>().join(" and "));
+    let remedy = match scene.means.iter().find(|hold| hold.body == *name) {
+        Some(hold) => format!("write {keys} into [support.{}], too", hold.name),
+        None => format!("hold its mean, by a support with body = \"{name}\", mean = true, {keys}"),
+    };
+    format!(
+        "body {name} shrinks, as it is cooler than what it touches, so that all its contacts open, and nothing else holds it: {remedy}"
+    )
 }
 
 /// Which side of a contact lies on a body.
