@@ -37,9 +37,8 @@ pub fn estimate(page: &ReportPage) -> String {
     let energy = summary.estimate.energy.map(|error| {
         paragraph(&format!("The displacement of all bodies has an estimated error of {} in the energy norm.", number_text(error)))
     });
-    let counting = summary.contacts_told().flat_map(|(name, contact)| {
-        contact.zones.iter().filter(|zone| zone.counts(&contact.zones)).map(move |zone| (name, zone))
-    });
+    let counting =
+        summary.contacts_told().flat_map(|(name, contact)| ZoneSummary::counting(&contact.zones).map(move |zone| (name, zone)));
     let ends = |[from, to]: [f64; 2]| format!("{} to {}", number_text(from), number_text(to));
     let peak = |zone: &ZoneSummary| if zone.singular == Some(true) { "without bound".into() } else { number(zone.peak) };
     let columns: [TableColumn<(&str, &ZoneSummary)>; 9] = [

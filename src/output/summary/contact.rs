@@ -114,7 +114,7 @@ impl ContactSummary {
     }
 
     fn singular_zones(&self) -> impl Iterator<Item = &ZoneSummary> {
-        self.zones.iter().filter(|zone| zone.singular == Some(true) && zone.counts(&self.zones))
+        ZoneSummary::counting(&self.zones).filter(|zone| zone.singular == Some(true))
     }
 
     /// Length of all intervals in contact.
@@ -164,10 +164,11 @@ pub struct ZoneSummary {
 }
 
 impl ZoneSummary {
-    /// Whether anyone would look at it, among `all` of its contact.
-    pub fn counts(&self, all: &[Self]) -> bool {
+    /// Those of all zones of a contact that anyone would look at.
+    pub fn counting(all: &[Self]) -> impl Iterator<Item = &Self> {
         let highest = all.iter().filter_map(|zone| zone.pressure_max).fold(0.0, f64::max);
-        self.share.is_none_or(|share| zone_counts(share, self.pressure_max.unwrap_or(f64::NAN), highest))
+        let counts = move |zone: &Self, share| zone_counts(share, zone.pressure_max.unwrap_or(f64::NAN), highest);
+        all.iter().filter(move |zone| zone.share.is_none_or(|share| counts(zone, share)))
     }
 }
 

@@ -106,7 +106,7 @@ fn peak_error(estimated: Option<f64>, singular: bool) -> Option<f64> {
 
 /// Estimated errors of the whole contact: those of its worst zone that counts, the peak of its highest.
 pub fn contact_estimate(force: Option<f64>, zones: &[ZoneSummary]) -> ContactEstimate {
-    let lambda: Option<Vec<f64>> = zones.iter().filter(|zone| zone.counts(zones)).map(|zone| zone.lambda).collect();
+    let lambda: Option<Vec<f64>> = ZoneSummary::counting(zones).map(|zone| zone.lambda).collect();
     let highest = zones.iter().max_by(|a, b| a.pressure_max.unwrap_or(0.0).total_cmp(&b.pressure_max.unwrap_or(0.0)));
     ContactEstimate {
         force,

@@ -5,7 +5,7 @@ use crate::body::BodyPart;
 use crate::case::Case;
 use crate::element::Order;
 use crate::output::Summary;
-use crate::output::summary::ContactSummary;
+use crate::output::summary::{ContactSummary, ZoneSummary};
 use crate::run::verdict::limits::{
     CUT_OFF, Doubt, GROWTH, LITTLE_SLIP, LOST_AT_ENDS, OVERLAP_BEYOND, P1_LOCKS, RESIDUAL, ROTATION, SLIP, SLIP_AT_ENDS, STRAIN,
     TURNING, WITHIN_SEGMENTS, percent,
@@ -32,9 +32,8 @@ pub fn slip_doubt(contact: &ContactSummary) -> Option<Doubt> {
 
 /// What tells that contact goes on beyond the end of its boundary.
 fn cut_doubt(contact: &ContactSummary) -> Option<Doubt> {
-    let counting = contact.zones.iter().filter(|zone| zone.counts(&contact.zones));
-    let most = counting.filter_map(|zone| zone.cut_off).reduce(f64::max);
-    CUT_OFF.judge(most, &[])
+    let cut_off = ZoneSummary::counting(&contact.zones).filter_map(|zone| zone.cut_off);
+    CUT_OFF.judge(cut_off.reduce(f64::max), &[])
 }
 
 /// What tells that bodies have slid along each other so far that they have another length in common, or lie elsewhere.

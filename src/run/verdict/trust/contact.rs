@@ -83,7 +83,7 @@ fn is_rounding(summary: &Summary, contact: &ContactSummary, case: &Case) -> bool
 fn stability_doubts(contact: &ContactSummary) -> Vec<Doubt> {
     let segment = contact.h_ratio.map_or(String::new(), |ratio| format!(" with segments of {} edges", short(ratio)));
     // Beside a singular end λ swings without harm to its middle, which the estimate tells.
-    let harmless = contact.zones.iter().filter(|zone| zone.counts(&contact.zones)).all(|zone| is_proved(zone.lambda));
+    let harmless = ZoneSummary::counting(&contact.zones).all(|zone| is_proved(zone.lambda));
     let figures = [(&INF_SUP, contact.inf_sup), (&OSCILLATION, contact.oscillation.filter(|_| !harmless))];
     figures.into_iter().filter_map(|(limit, value)| limit.judge(value, &[("segment", &segment)])).collect()
 }

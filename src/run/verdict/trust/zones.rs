@@ -10,14 +10,9 @@ use crate::run::words::short;
 
 /// What tells that zones are too narrow, or too coarse, for their pressure.
 pub fn zone_doubts(contact: &ContactSummary, trust_force: Option<bool>) -> Vec<Doubt> {
-    let counting = counting(contact).filter(|zone| !is_concentrated(zone, trust_force));
+    let counting = ZoneSummary::counting(&contact.zones).filter(|zone| !is_concentrated(zone, trust_force));
     let overlap = contact.missing.filter(|_| overlaps(contact)).map(|missing| OVERLAP.doubt(missing, &[]));
     counting.flat_map(|zone| doubts_of(zone, contact)).chain(overlap).collect()
-}
-
-/// The zones that anyone would look at.
-fn counting(contact: &ContactSummary) -> impl Iterator<Item = &ZoneSummary> {
-    contact.zones.iter().filter(|zone| zone.counts(&contact.zones))
 }
 
 /// What tells that one zone is.
@@ -41,14 +36,14 @@ fn doubts_of(zone: &ZoneSummary, contact: &ContactSummary) -> Vec<Doubt> {
 
 /// What neither speaks for a pressure nor against it.
 pub fn unknown_of(contact: &ContactSummary, trust_force: Option<bool>, remedy: String) -> Option<Objection> {
-    if let Some(zone) = counting(contact).find(|zone| is_concentrated(zone, trust_force)) {
+    if let Some(zone) = ZoneSummary::counting(&contact.zones).find(|zone| is_concentrated(zone, trust_force)) {
         let edges = zone.edges.unwrap_or(f64::NAN);
         let words = format!("the corner of a body presses on {edges:.1} edges: its pressure is singular there");
         return Some(Objection { cause: "the corner of a body presses, the force is to be trusted", words, remedy: None });
     }
     let cause = "nothing estimates the error of its pressure";
     let is_untold = |zone: &ZoneSummary| zone.lambda.is_none() && !(is_proved(zone.worst) && is_divided(zone));
-    counting(contact).any(is_untold).then(|| Objection { cause, words: cause.into(), remedy: Some(remedy) })
+    ZoneSummary::counting(&contact.zones).any(is_untold).then(|| Objection { cause, words: cause.into(), remedy: Some(remedy) })
 }
 
 /// Whether bodies overlap where no segment presses by what a force that counts would part.
@@ -70,13 +65,13 @@ pub fn width(zone: &ZoneSummary) -> Option<(f64, f64)> {
 
 /// Edges on the narrowest zone that counts; the corner of a body has as few on every mesh.
 pub fn fewest_edges(contact: &ContactSummary) -> f64 {
-    let wide = counting(contact).filter(|zone| zone.corner != Some(true) || zone.hertz_width.is_some());
+    let wide = ZoneSummary::counting(&contact.zones).filter(|zone| zone.corner != Some(true) || zone.hertz_width.is_some());
     wide.filter_map(width).map(|(width, edge)| width / edge).fold(f64::INFINITY, f64::min)
 }
 
 /// Whether one of its zones lies on so few segments that its signs of error tell little.
 pub fn is_on_few_segments(contact: &ContactSummary) -> bool {
-    counting(contact).any(|zone| !is_divided(zone))
+    ZoneSummary::counting(&contact.zones).any(|zone| !is_divided(zone))
 }
 
 /// Whether its signs of error can tell anything.
