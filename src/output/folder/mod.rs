@@ -17,10 +17,10 @@ use std::time::Duration;
 use rustix::fs::{CWD, RenameFlags, renameat_with};
 
 use crate::output::error::OutputError;
-use crate::output::summary::Summary;
+use crate::output::summary::{SUMMARY, Summary};
 use leftover::{make_hidden, remove_empty, retire};
 use mounted::{is_bare, is_mount_point, move_in};
-use own_files::{OwnFiles, SUMMARY, names_within};
+use own_files::{OwnFiles, names_within};
 
 /// What a result is called within a mount point while it is written.
 const WITHIN: &str = "result";

@@ -6,8 +6,9 @@ use std::path::Path;
 use rustix::fs::{AtFlags, CWD, StatxAttributes, StatxFlags, statx};
 
 use super::leftover::{carry_over, free_name, is_equal};
-use super::own_files::{OwnFiles, SUMMARY, entries, names_within, remove_if_there};
+use super::own_files::{OwnFiles, entries, names_within, remove_if_there};
 use crate::output::error::OutputError;
+use crate::output::summary::SUMMARY;
 
 /// What a file system has of itself in its first folder.
 const FOUND: &str = "lost+found";

@@ -6,9 +6,7 @@ use std::fs::{self, DirEntry};
 use std::path::{Path, PathBuf};
 
 use crate::output::error::OutputError;
-
-/// The file that makes a folder a result.
-pub const SUMMARY: &str = "summary.json";
+use crate::output::summary::{SUMMARY, read_summary};
 
 /// Names of the files of a result, relative to its folder.
 #[derive(Debug, Default)]
@@ -17,14 +15,10 @@ pub struct OwnFiles(pub BTreeSet<PathBuf>);
 impl OwnFiles {
     /// The files that the summary in a folder lists; None if there is no summary of mezha.
     pub fn of(folder: &Path) -> Option<Self> {
-        let text = fs::read(folder.join(SUMMARY)).ok()?;
-        let summary: Value = serde_json::from_slice(&text).ok()?;
-        let is_text = |key: &str| summary.get(key).is_some_and(Value::is_string);
-        if !is_text("mezha") || !is_text("status") {
-            return None;
-        }
-        let listed = summary.get("files").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str);
-        Some(Self(listed.chain([SUMMARY]).map(PathBuf::from).collect()))
+        let summary = read_summary(folder);
+        let is_result = summary["mezha"].is_string() && summary["status"].is_string();
+        let listed = summary["files"].as_array().into_iter().flatten().filter_map(Value::as_str);
+        is_result.then(|| Self(listed.chain([SUMMARY]).map(PathBuf::from).collect()))
     }
 
     /// Their names.

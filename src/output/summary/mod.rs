@@ -27,10 +27,19 @@ use std::fs;
 use std::path::Path;
 
 use serde::Serialize;
+use serde_json::Value;
 
 use crate::output::error::OutputError;
 use crate::output::units::Units;
 use crate::procedure::{BoundaryStep, Pass};
+
+/// The file that makes a folder a result.
+pub const SUMMARY: &str = "summary.json";
+
+/// The summary of the result in a folder; null if there is none that can be read.
+pub fn read_summary(folder: &Path) -> Value {
+    fs::read(folder.join(SUMMARY)).ok().and_then(|text| serde_json::from_slice(&text).ok()).unwrap_or_default()
+}
 
 /// The summary of a run. Start from [`Summary::new`] and fill in what is known.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

@@ -1,8 +1,7 @@
 //! Where a result comes from.
 
+use super::read_summary;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
-use std::fs;
 use std::path::Path;
 
 /// What made a result, and of what. Nothing here is a number of the result: two runs that differ in date, host or command alone
@@ -49,9 +48,7 @@ pub struct Provenance {
 impl Provenance {
     /// What made the result in a folder; nothing if its `summary.json` does not tell.
     pub fn of_result(folder: &Path) -> Option<Self> {
-        let text = fs::read(folder.join("summary.json")).ok()?;
-        let summary: Value = serde_json::from_slice(&text).ok()?;
-        Self::deserialize(&summary["provenance"]).ok()
+        Self::deserialize(&read_summary(folder)["provenance"]).ok()
     }
 
     /// In what this run differs from one `before`, beside its time and place, one phrase for each.

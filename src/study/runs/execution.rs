@@ -19,9 +19,10 @@ use signal_hook::flag;
 use signal_hook::low_level::signal_name;
 
 use super::ended::{Ended, RunStatus};
-use super::folder::{Folder, read_summary, result_name};
+use super::folder::{Folder, result_name};
 use super::record::Program;
 use crate::case::Inputs;
+use crate::output::summary::read_summary;
 use crate::output::{OutputError, machine};
 use crate::study::plan::planned::PlannedRun;
 

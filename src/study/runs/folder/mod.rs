@@ -5,9 +5,8 @@ use std::fs::{self, DirEntry, File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use serde_json::Value;
-
 use crate::case::Inputs;
+use crate::output::summary::read_summary;
 use crate::output::{OutputError, RunError, entries, remove_if_there};
 use crate::study::runs::ended::Ended;
 use crate::study::runs::record::{Identity, Record};
@@ -171,11 +170,6 @@ impl Folder {
 /// Name of a result in the folder of the study.
 pub fn result_name(number: usize) -> String {
     format!("{RUNS}/{number:03}")
-}
-
-/// The summary of a result; null if there is none that can be read.
-pub fn read_summary(result: &Path) -> Value {
-    fs::read_to_string(result.join("summary.json")).ok().and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default()
 }
 
 /// Takes the folder for this program. Where the file system has no locks, nothing is locked.

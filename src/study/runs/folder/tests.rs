@@ -1,3 +1,4 @@
+use serde_json::Value;
 use std::time::Duration;
 
 use super::super::ended::RunStatus;
