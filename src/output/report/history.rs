@@ -73,9 +73,9 @@ fn load_steps(steps: &[StepSummary], units: &Units) -> String {
 fn meshes_table(meshes: &[AccuracyStep]) -> String {
     let columns: [TableColumn<(usize, &AccuracyStep)>; 6] = [
         ("mesh", &|(at, _)| (at + 1).to_string()),
-        ("macro triangles", &|(_, mesh)| count(Some(mesh.macro_triangles as u64))),
+        ("macro triangles", &|(_, mesh)| count(mesh.macro_triangles)),
         ("refined", &|(_, mesh)| mesh.refine.to_string()),
-        ("unknowns", &|(_, mesh)| count(Some(mesh.unknowns as u64))),
+        ("unknowns", &|(_, mesh)| count(mesh.unknowns)),
         ("energy norm", &|(_, mesh)| number(mesh.energy.as_ref().and_then(|goal| goal.estimate))),
         ("seconds so far", &|(_, mesh)| format!("{:.2}", mesh.seconds)),
     ];

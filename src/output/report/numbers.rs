@@ -170,7 +170,7 @@ pub fn effort(page: &ReportPage) -> String {
         words.map(|words| words.join(", "))
     };
     let mib = |value: Option<f64>| value.filter(|mib| mib.is_finite()).map(|mib| format!("{mib:.0} MiB"));
-    let counted = |value: Option<u64>| value.map(|_| count(value));
+    let counted = |value: Option<u64>| value.map(|value| count(value as usize));
     let iterations = |all: &[usize]| {
         let words: Vec<String> = all.iter().map(usize::to_string).collect();
         (!all.is_empty()).then(|| words.join(" "))

@@ -1,7 +1,7 @@
 //! What a page is made of, its tables and what stands in their cells.
 
 use crate::output::markup::{NOT_TRUSTED, TRUSTED, UNKNOWN, UNTOLD, paragraph, table};
-use crate::output::plot::{number_text, number_to};
+use crate::output::plot::{grouped, number_text, number_to};
 use crate::output::summary::Summary;
 use std::collections::BTreeSet;
 
@@ -77,12 +77,9 @@ fn known(number: Option<f64>, text: impl Fn(f64) -> String) -> String {
     number.filter(|number| number.is_finite()).map_or(UNKNOWN.into(), text)
 }
 
-/// A count in groups of three digits.
-pub fn count(count: Option<u64>) -> String {
-    let Some(count) = count else { return UNKNOWN.into() };
-    let digits = count.to_string();
-    let groups: Vec<String> = digits.as_bytes().rchunks(3).rev().map(|group| String::from_utf8_lossy(group).into()).collect();
-    groups.join("\u{a0}")
+/// A count in groups of three digits, which stand on one line.
+pub fn count(number: usize) -> String {
+    grouped(number).replace(' ', "\u{a0}")
 }
 
 /// Whether something can be trusted, in words that have a colour.

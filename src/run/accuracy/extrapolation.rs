@@ -1,9 +1,9 @@
 //! How the estimates of a goal fall from mesh to mesh, and on how many unknowns it would hold.
 
 use super::goals::{name, told};
-use super::numbers::{grouped, rounded_up};
 use crate::accuracy::{Adaptation, AdaptedMesh};
-use crate::output::plot::Sequence;
+use crate::output::plot::{Sequence, grouped};
+use crate::run::words::rounded_up;
 
 /// So many meshes tell how an error falls.
 const LAST: usize = 3;

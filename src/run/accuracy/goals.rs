@@ -1,8 +1,9 @@
 //! Goals of an accuracy in words: what is asked for, and which of many goals are told.
 
-use super::numbers::{figure, grouped, plain};
 use crate::accuracy::{Accuracy, AdaptedMesh, Goal, Quantity};
+use crate::output::plot::grouped;
 use crate::output::summary::{MOST_TOLD, WORST};
+use crate::run::words::{figure, plain};
 
 /// The goals that are told one by one: all of a few, of many those whose estimates on a mesh, or what is asked, leave least room.
 pub fn told(Accuracy { goals, .. }: &Accuracy, mesh: Option<&AdaptedMesh>) -> Vec<usize> {

@@ -2,7 +2,6 @@
 
 mod extrapolation;
 mod goals;
-mod numbers;
 mod verdict;
 
 pub(super) use extrapolation::{sequences, would_take};

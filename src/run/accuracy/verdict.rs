@@ -2,9 +2,10 @@
 
 use super::extrapolation::would_take;
 use super::goals::{name, of_how_many, told};
-use super::numbers::{figure, grouped, plain, rounded_up};
 use crate::accuracy::{Adaptation, SequenceEnd};
+use crate::output::plot::grouped;
 use crate::output::summary::Status;
+use crate::run::words::{figure, plain, rounded_up};
 
 /// Status and reason of a run that was asked for an accuracy: it has converged only if that is reached.
 pub fn judge(adaptation: &Adaptation, status: Status, reason: &str) -> (Status, String) {

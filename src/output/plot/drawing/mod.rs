@@ -23,4 +23,4 @@ pub use paint::{
     BLUE, Colour, GREEN, GREY, INK, LINES, Letters, Paint, TextAnchor, VERMILION, WHITE, diverging, text_width, viridis,
 };
 pub use scale::{Axis, Scale, widened};
-pub use ticks::{cut_off, number_text, number_to, round_number};
+pub use ticks::{cut_off, grouped, number_text, number_to, round_number};
