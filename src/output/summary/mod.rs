@@ -8,9 +8,7 @@ mod body;
 mod contact;
 mod machine;
 mod provenance;
-mod solver;
 mod steps;
-mod thickness;
 mod told;
 
 pub use accuracy::{AccuracyStep, Cycles, GoalSummary};
@@ -18,7 +16,6 @@ pub use body::BodySummary;
 pub use contact::{ContactEstimate, ContactSummary, ContactTrust, ZoneSummary};
 pub use machine::{machine, whole_machine};
 pub use provenance::Provenance;
-pub use solver::SolverSummary;
 pub use steps::{StepContact, StepSummary};
 pub use told::{MOST_TOLD, MOST_WITH_FIGURES, WORST, alike, capital, clauses, lines_alike, listed};
 
@@ -31,7 +28,7 @@ use serde_json::Value;
 
 use crate::output::error::OutputError;
 use crate::output::units::Units;
-use crate::procedure::{BoundaryStep, Pass};
+use crate::procedure::{BoundaryStep, CoarseSolve, Pass};
 
 /// The file that makes a folder a result.
 pub const SUMMARY: &str = "summary.json";
@@ -231,6 +228,27 @@ pub struct ProbeSummary {
     pub hoop: Option<f64>,
 }
 
+/// The linear solver.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct SolverSummary {
+    /// `fieldsplit` or `direct`.
+    pub name: Option<String>,
+    /// What solved it, in words, such as `fieldsplit (multigrid F-cycle)`.
+    pub krylov: Option<String>,
+    /// One number per linear solve.
+    pub iterations: Vec<usize>,
+    /// Solves on coarser meshes before, the coarsest first.
+    pub coarse: Vec<CoarseSolve>,
+    /// Iterations on all meshes, each by its unknowns, in iterations on the last one.
+    pub cycles: Option<f64>,
+    /// Relative residual of the scaled augmented system.
+    pub residual: Option<f64>,
+    /// Relative residual of the system as it stands.
+    pub plain_residual: Option<f64>,
+    /// The BLAS in use.
+    pub blas: Option<String>,
+}
+
 /// Wall time in seconds, slowest rank.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Time {
@@ -274,6 +292,28 @@ impl Summary {
             .map_err(std::io::Error::from)
             .and_then(|text| fs::write(path, text + "\n"))
             .map_err(OutputError::unwritten(path))
+    }
+
+    /// Multiplies everything that is a force, a moment or an energy by a thickness.
+    pub fn times_thickness(&mut self, thickness: f64) {
+        let scale = |value: &mut Option<f64>| *value = value.map(|value| thickness * value);
+        let scale_both = |value: &mut Option<[f64; 2]>| *value = value.map(|value| value.map(|one| thickness * one));
+        for contact in self.contact.values_mut() {
+            let forces = [&mut contact.force, &mut contact.unresolved_force, &mut contact.missing_force, &mut contact.moment];
+            forces.into_iter().for_each(scale);
+            scale_both(&mut contact.resultant);
+        }
+        for support in self.support.values_mut() {
+            scale(&mut support.moment);
+            scale_both(&mut support.reaction);
+        }
+        for rigid in self.rigid.values_mut() {
+            scale(&mut rigid.moment);
+            scale_both(&mut rigid.force);
+        }
+        let energy = &mut self.energy;
+        energy.strain.values_mut().chain(energy.parts.values_mut()).for_each(scale);
+        [&mut energy.total, &mut energy.stationary, &mut energy.springs, &mut energy.external_work].into_iter().for_each(scale);
     }
 }
 
