@@ -76,8 +76,8 @@ pub fn read_load(section: &Section, root: &Section, all: &mut Loads) -> Option<(
     let pressure = section.optional(PRESSURE).map(LoadKind::Pressure);
     let traction = section.optional(TRACTION).map(LoadKind::Traction);
     match given {
-        [false, false] => section.problem(&[], "loads nothing; give pressure or traction = [tx, ty]".into()),
-        [true, true] => section.problem(&["pressure"], "stands beside traction; give one of them, or two loads".into()),
+        [false, false] => section.problem(&[], "loads nothing; give pressure or traction = [tx, ty]"),
+        [true, true] => section.problem(&["pressure"], "stands beside traction; give one of them, or two loads"),
         _ => {}
     }
     let kind = pressure.or(traction).unwrap_or(LoadKind::Pressure(Formula::constant(0.0)));

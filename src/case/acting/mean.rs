@@ -120,7 +120,7 @@ pub fn read_mean(section: &Section, body: Key<String>) -> Option<MeanSupport> {
     ];
     if !ways.iter().any(|(key, _)| section.has(key.form.name)) {
         let words = "holds no mean motion; give ux, uy or angle, along beside direction, tangential beside about, or several of them, as in ux = 0.0";
-        section.problem(&[], words.into());
+        section.problem(&[], words);
     }
     let values = ways.map(|(key, way)| (key.form.name, way, section.optional(key)));
     let held = values.into_iter().filter_map(|(key, way, value)| Some((key, way?, value?))).collect();

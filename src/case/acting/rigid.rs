@@ -99,7 +99,7 @@ pub struct Plate {
 pub fn read_plate(section: &Section, on: Vec<String>) -> Option<Plate> {
     section.refuse(&["pressure", "traction"], "stands beside rigid = true; give force and moment, or make two loads");
     if !section.has("force") && !section.has("moment") {
-        section.problem(&[], "presses with nothing; give force = [fx, fy], moment, or both beside rigid = true".into());
+        section.problem(&[], "presses with nothing; give force = [fx, fy], moment, or both beside rigid = true");
     }
     let given = section.optional(ABOUT).map(Point::from);
     let (prescribed, applied) = read_motion(section)?;
@@ -136,7 +136,7 @@ fn read_parts(section: &Section) -> Option<Vec<CurvePiece>> {
     let kinds = [section.has("line"), section.has("circle"), section.has_any(&["x", "y", "t"])];
     if kinds.iter().filter(|given| **given).count() != 1 {
         let words = "its surface is one of line = [[0, 1], [2, 1]], circle = { centre = [0, 0], radius = 1 }, or x, y, t; give exactly one of them";
-        section.problem(&[], words.into());
+        section.problem(&[], words);
         return None;
     }
     if kinds[0] {

@@ -22,13 +22,13 @@ pub fn read_where(
     let (at, body) = (section.optional(at), section.optional(body));
     if !section.has("at") {
         if section.has("body") {
-            section.problem(&["body"], "stands beside at = [x, y] only: a physical curve tells its body; leave it out".into());
+            section.problem(&["body"], "stands beside at = [x, y] only: a physical curve tells its body; leave it out");
         }
         let on = section.required(on);
         return Some(Where { on: on?, at: None });
     }
     if section.has("on") {
-        section.problem(&["at"], "stands beside on; give physical curves or a point, or make two tables".into());
+        section.problem(&["at"], "stands beside on; give physical curves or a point, or make two tables");
         return None;
     }
     let place = at?;

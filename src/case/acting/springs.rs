@@ -27,24 +27,21 @@ pub fn read_springs(section: &Section, on: Key<Vec<String>>) -> Option<Springs> 
         "stands beside stiffness: springs prescribe nothing; make two supports, or leave one out",
     );
     let on = if section.has("at") {
-        let words = "stands beside stiffness: springs stand on physical curves, by their length; give on";
-        section.problem(&["at"], words.into());
+        section.problem(&["at"], "stands beside stiffness: springs stand on physical curves, by their length; give on");
         section.optional(on)
     } else {
         section.required(on)
     };
     if !section.has_table("stiffness") {
-        section.problem(&["stiffness"], "must be a table, as { normal = 100.0 } or { x = 100.0, y = 50.0 }".into());
+        section.problem(&["stiffness"], "must be a table, as { normal = 100.0 } or { x = 100.0, y = 50.0 }");
         return None;
     }
     let stiffness = section.table("stiffness");
     let [normal, x, y] = [NORMAL, X, Y].map(|key| stiffness.optional(key));
     let axes = stiffness.has("x") || stiffness.has("y");
     match (stiffness.has("normal"), axes) {
-        (false, false) => {
-            stiffness.problem(&[], "holds nothing; give normal, or x and y: force per length and displacement".into())
-        }
-        (true, true) => stiffness.problem(&["normal"], "stands beside x or y; make two supports".into()),
+        (false, false) => stiffness.problem(&[], "holds nothing; give normal, or x and y: force per length and displacement"),
+        (true, true) => stiffness.problem(&["normal"], "stands beside x or y; make two supports"),
         _ => {}
     }
     let kind =

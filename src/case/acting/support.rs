@@ -75,13 +75,13 @@ pub fn read_support(section: &Section, root: &Section, all: &mut Supports) -> Op
     let [ux, uy, normal] = [UX, UY, NORMAL].map(|key| section.optional(key));
     match given {
         [false, false, false] => {
-            section.problem(&[], "prescribes nothing; give ux, uy or normal, or stiffness = { normal = 1.0 } for springs".into())
+            section.problem(&[], "prescribes nothing; give ux, uy or normal, or stiffness = { normal = 1.0 } for springs")
         }
         [_, _, true] if given[0] || given[1] => {
-            section.problem(&["normal"], "cannot stand beside ux or uy; make two supports on different curves".into());
+            section.problem(&["normal"], "cannot stand beside ux or uy; make two supports on different curves");
         }
         [_, _, true] if section.has("at") => {
-            section.problem(&["normal"], "stands beside at: a point has no normal; give ux, uy or both".into());
+            section.problem(&["normal"], "stands beside at: a point has no normal; give ux, uy or both");
         }
         _ => {}
     }

@@ -112,7 +112,7 @@ pub fn read_accuracy(root: &Section, contacts: &[Pair], probes: &[ProbePoint]) -
         section.refuse(&["displacement", "stress"], "there is no point to look at; write [probe.NAME] with point and body");
     }
     if !section.has_any(&GOAL_KEYS) && !section.has_any(&["energy", "displacement", "stress"]) && single.is_empty() {
-        section.problem(&[], SOME_GOAL.into());
+        section.problem(&[], SOME_GOAL);
     }
     let mut goals: Vec<Goal> = energy.map(|tolerance| Goal { quantity: Quantity::Energy, tolerance }).into_iter().collect();
     for pair in contacts {
@@ -142,7 +142,7 @@ fn read_single(section: &Section, contacts: &[Pair], root: &Section) -> Option<(
     let own = GOALS.map(|key| section.optional(key));
     section.check_name(&[], "contact", name, root.names_below("contact"));
     if !section.has_any(&GOAL_KEYS) && root.names_below("contact").any(|known| known == name) {
-        section.problem(&[], "asks for nothing; give force, pressure, peak or ends".into());
+        section.problem(&[], "asks for nothing; give force, pressure, peak or ends");
     }
     if own[ENDS_AT].is_some() && contacts.iter().any(|pair| pair.name == name && pair.law == Law::Bilateral) {
         section.problem(&["ends"], no_ends(&format!("contact.{name} is")));

@@ -193,7 +193,7 @@ fn read_lambda(section: &Section) -> Option<LambdaExact> {
         return read_points(section, PRESSURES, tolerance).map(LambdaExact::Points);
     }
     if section.has_any(&["at", "value"]) {
-        section.problem(&["formula"], "stands beside at and value; give either formula or points".into());
+        section.problem(&["formula"], "stands beside at and value; give either formula or points");
     }
     let formula = section.required(FORMULA);
     check_not_zero(section, "formula", formula.as_slice());
@@ -220,7 +220,7 @@ fn read_body(section: &Section, plane: Plane, root: &Section) -> Option<BodyExac
 /// Not all of some formulas are 0 everywhere.
 fn check_not_zero(section: &Section, key: &str, formulas: &[Formula]) {
     if !formulas.is_empty() && formulas.iter().all(|formula| formula.as_constant() == Some(0.0)) {
-        section.problem(&[key], ALL_ZERO.into());
+        section.problem(&[key], ALL_ZERO);
     }
 }
 

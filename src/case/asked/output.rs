@@ -82,7 +82,7 @@ pub fn read_output(root: &Section, plane: Plane) -> Output {
         _ => false,
     };
     if output.figures.iter().any(is_for_others) {
-        section.problem(&["figures"], if plane == Plane::Revolution { NOT_OF_REVOLUTION } else { OF_REVOLUTION }.into());
+        section.problem(&["figures"], if plane == Plane::Revolution { NOT_OF_REVOLUTION } else { OF_REVOLUTION });
     }
     output
 }

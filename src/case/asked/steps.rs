@@ -57,7 +57,7 @@ pub fn check_steps(factors: &[LoadFactor], root: &Section) {
     }
     if root.has("accuracy") && root.names_below("steps").next().is_some() {
         let words = "stands beside an accuracy, which adapts the mesh to one load; adapt it without steps (--set steps={}), and name the adapted.msh of that result as mesh.file here";
-        root.problem(&["steps"], words.into());
+        root.problem(&["steps"], words);
     }
     let Some(written) = root.table else { return };
     let mut known: Vec<(Vec<String>, &LoadFactor)> = Vec::new();

@@ -70,7 +70,7 @@ pub fn read_body(section: &Section, plane: Plane, gravity: Gravity) -> Option<Bo
         section.problem(&["part"], format!("names no part; write [body.{name}.part.SURFACE] for each physical surface of it"));
     }
     if section.names_below("part").any(|part| part == name) {
-        section.problem(&["part", &name], "a part cannot have the name of its body; give the body another one".into());
+        section.problem(&["part", &name], "a part cannot have the name of its body; give the body another one");
     }
     Some(Body { name, parts })
 }
@@ -96,11 +96,11 @@ fn read_heat(section: &Section) -> Option<Heat> {
     let (expansion, temperature) = (section.optional(EXPANSION), section.optional(TEMPERATURE));
     match (section.has("expansion"), section.has("temperature")) {
         (false, true) => {
-            section.problem(&["temperature"], "strains nothing without expansion, the strain by degree; give it, too".into());
+            section.problem(&["temperature"], "strains nothing without expansion, the strain by degree; give it, too");
         }
         (true, false) => {
             let words = "does nothing without temperature, the difference to that without stress; give it, too";
-            section.problem(&["expansion"], words.into());
+            section.problem(&["expansion"], words);
         }
         _ => {}
     }
@@ -129,6 +129,6 @@ pub fn region_names<'a>(root: &Section<'a>) -> Vec<&'a str> {
 /// There is something to solve for.
 pub fn check_bodies(root: &Section) {
     if root.names_below("body").next().is_none() {
-        root.problem(&["body"], "missing; write [body.NAME] for every physical surface of the mesh".into());
+        root.problem(&["body"], "missing; write [body.NAME] for every physical surface of the mesh");
     }
 }

@@ -61,7 +61,7 @@ pub fn read_geometry(section: &Section) -> Option<Geometry> {
 pub fn read_surface(section: &Section) -> Option<Curve> {
     match (section.has_any(&["x", "y", "t"]), section.has("circle")) {
         (true, true) => {
-            section.problem(&["circle"], "stands beside x, y, t; give either circle or formulas".into());
+            section.problem(&["circle"], "stands beside x, y, t; give either circle or formulas");
             None
         }
         (false, true) => {
@@ -79,7 +79,7 @@ fn read_parametric(section: &Section) -> Option<Curve> {
     let range = section.made("t", section.required(T), ascending);
     let (x, y, range) = (x?, y?, range?);
     if x.as_constant().is_some() && y.as_constant().is_some() {
-        section.problem(&["x"], "neither x nor y depends on t, so the curve is a point; use t".into());
+        section.problem(&["x"], "neither x nor y depends on t, so the curve is a point; use t");
         return None;
     }
     for (key, formula) in [("x", &x), ("y", &y)] {

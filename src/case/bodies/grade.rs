@@ -68,7 +68,7 @@ pub fn read_grade(section: &Section, order: Option<Order>) -> Option<Vec<Grade>>
         Some(ratios) => ratios,
         None if !section.has("exponent") => {
             let words = "missing; write exponent = 0.75, if u ~ r^0.75 at these points, or give ratio as a number";
-            section.problem(&["exponent"], words.into());
+            section.problem(&["exponent"], words);
             return None;
         }
         None => exponent?.into_iter().map(|exponent| automatic(order, exponent)).collect::<Option<_>>()?,

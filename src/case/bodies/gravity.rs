@@ -41,7 +41,7 @@ pub fn read_weight(section: &Section, density: Key<f64>, gravity: Gravity) -> Op
     let density = section.optional(density);
     match gravity {
         Gravity::None => {
-            section.problem(&["density"], "weighs nothing without gravity; write [gravity] with g = [0.0, -9.81]".into());
+            section.problem(&["density"], "weighs nothing without gravity; write [gravity] with g = [0.0, -9.81]");
             None
         }
         Gravity::Acceleration(g) => Some(g.map(|g| density.map_or(0.0, |density| density * g))).filter(|_| density.is_some()),
@@ -68,7 +68,7 @@ pub fn check_gravity(gravity: Gravity, root: &Section) {
         root.below("body", body).is_some_and(|body| is_dense(body) || has_dense_part(body))
     };
     if matches!(gravity, Gravity::Acceleration(_)) && !root.names_below("body").any(is_heavy) {
-        root.problem(&["gravity"], "acts on nothing; give density, mass per area and thickness, in some [body.NAME]".into());
+        root.problem(&["gravity"], "acts on nothing; give density, mass per area and thickness, in some [body.NAME]");
     }
 }
 

@@ -18,7 +18,7 @@ pub fn check(plane: Plane, bodies: &[Body], gravity: Gravity, root: &Section) {
         bodies.iter().find(|body| of_bodies(body).is_some_and(|own| (own == Plane::Revolution) != (plane == Plane::Revolution)))
     {
         let words = "all bodies are of revolution, or none is; write plane = \"axisymmetric\" once, before all tables";
-        root.problem(&["body", &body.name, "plane"], words.into());
+        root.problem(&["body", &body.name, "plane"], words);
     }
     if plane != Plane::Revolution {
         return;
@@ -26,13 +26,13 @@ pub fn check(plane: Plane, bodies: &[Body], gravity: Gravity, root: &Section) {
     if root.has("thickness") {
         root.problem(
             &["thickness"],
-            "a body of revolution has none: forces and energies are those of the whole body; leave it out".into(),
+            "a body of revolution has none: forces and energies are those of the whole body; leave it out",
         );
     }
     if let Gravity::Acceleration([x, _]) = gravity
         && x != 0.0
     {
-        root.problem(&["gravity", "g"], "acts along the axis of revolution alone; its x component must be 0".into());
+        root.problem(&["gravity", "g"], "acts along the axis of revolution alone; its x component must be 0");
     }
     let whole_bodies = [("rigid", None), ("load", Some("rigid")), ("support", Some("body"))];
     for (kind, mark) in whole_bodies {
@@ -41,12 +41,11 @@ pub fn check(plane: Plane, bodies: &[Body], gravity: Gravity, root: &Section) {
                 continue;
             };
             for key in NOT_ALONG.into_iter().filter(|key| table.contains_key(*key) && !(kind == "rigid" && *key == "about")) {
-                let words = "a body of revolution moves along its axis alone; leave it out";
-                root.problem(&[kind, name, key], words.into());
+                root.problem(&[kind, name, key], "a body of revolution moves along its axis alone; leave it out");
             }
             let force = table.get("force").and_then(Value::as_array).and_then(|force| force.first());
             if force.is_some_and(|x| number(x).is_ok_and(|x| x != 0.0)) {
-                root.problem(&[kind, name, "force"], "acts along the axis of revolution alone; its x component must be 0".into());
+                root.problem(&[kind, name, "force"], "acts along the axis of revolution alone; its x component must be 0");
             }
         }
     }

@@ -58,7 +58,7 @@ pub fn read_contact(section: &Section, root: &Section, unions: &mut Vec<Union>) 
 
 /// What does not go together.
 fn check_choices(pair: &Pair, section: &Section) {
-    let refuse = |key: &str, words: &str| section.problem(&[key], words.into());
+    let refuse = |key: &str, words: &str| section.problem(&[key], words);
     let is_deformed = pair.configuration == Configuration::Deformed;
     if pair.curve != CurveChoice::Fit && is_deformed {
         refuse("configuration", "\"deformed\" wants curve = \"fit\": a declared curve does not follow the bodies");
@@ -78,7 +78,7 @@ fn check_choices(pair: &Pair, section: &Section) {
 fn check_name(section: &Section) {
     let name = section.name();
     if ["", ".", ".."].contains(&name) || !name.chars().all(|c| c.is_alphanumeric() || "-_.".contains(c)) {
-        section.problem(&[], NO_FILE_NAME.into());
+        section.problem(&[], NO_FILE_NAME);
     }
     if name.len() > LONGEST_NAME {
         let words = format!("its name has {} bytes and is part of a file name; use {LONGEST_NAME} at most", name.len());
@@ -140,7 +140,7 @@ fn read_quadrature(section: &Section, space: Option<MultiplierSpace>) -> Option<
     let points = section.or(POINTS)?;
     if points == 1 && space.is_some_and(|space| space != MultiplierSpace::P0) {
         let words = "cannot tell the two values of a linear multiplier apart; give 2 or more, or multiplier = \"p0\"";
-        section.problem(&["points"], words.into());
+        section.problem(&["points"], words);
     }
     Some(Quadrature::Segment { points })
 }

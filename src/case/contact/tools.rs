@@ -41,8 +41,7 @@ fn check_sides(pair: &Pair, tools: &[Tool], root: &Section) {
         let words = format!("\"{side}\" is no rigid tool of the case; {}", suggest(side, tools.iter().map(Tool::key)));
         root.problem(&["contact", &pair.name, "between"], words);
     } else if sides.iter().all(|side| tool_of(side, tools).is_some()) {
-        let words = "both sides are rigid; a tool presses on a boundary of the mesh";
-        root.problem(&["contact", &pair.name, "between"], words.into());
+        root.problem(&["contact", &pair.name, "between"], "both sides are rigid; a tool presses on a boundary of the mesh");
     }
 }
 
@@ -80,7 +79,7 @@ fn check_turn(tool: &Tool, contacts: &[Pair], root: &Section) {
     }
     if matches!(*tool.surface[0].curve, Curve::Circle { .. }) {
         let words = "a circle turns on what it touches: nothing but its curvature resists, which is not modelled; leave moment out, or give angle";
-        root.problem(&["rigid", name(tool), "moment"], words.into());
+        root.problem(&["rigid", name(tool), "moment"], words);
     }
     let deformed = |pair: &&Pair| pair.configuration == Configuration::Deformed && pair.between.iter().any(|side| tool.has(side));
     if let Some(pair) = contacts.iter().find(deformed) {

@@ -202,8 +202,8 @@ struct Faults {
 }
 
 impl Faults {
-    fn add(&mut self, words: String) {
-        self.found.push((told(&self.path), words));
+    fn add(&mut self, words: impl Into<String>) {
+        self.found.push((told(&self.path), words.into()));
     }
 
     fn below(&mut self, name: &str, look: impl FnOnce(&mut Self)) {
@@ -215,7 +215,7 @@ impl Faults {
     fn look_into(&mut self, form: &TableForm, table: &Table) {
         for (name, value) in table {
             self.below(name, |faults| match form.key(name) {
-                None => faults.add("unknown key".into()),
+                None => faults.add("unknown key"),
                 Some(key) => {
                     key.refusal(value).into_iter().for_each(|words| faults.add(words));
                     faults.look_below(&key.value, value);
@@ -223,7 +223,7 @@ impl Faults {
             });
         }
         for key in form.all().filter(|key| key.absent == Absent::Refused && !table.contains_key(key.name)) {
-            self.below(key.name, |faults| faults.add("missing".into()));
+            self.below(key.name, |faults| faults.add("missing"));
         }
         form.rules.iter().filter_map(|rule| rule.broken(table)).for_each(|words| self.add(words));
     }
@@ -249,7 +249,7 @@ impl Faults {
                         Value::Array(list) if !list.is_empty() => {
                             values::twice(list).into_iter().for_each(|number| faults.add(values::told_twice(number)));
                         }
-                        _ => faults.add("must be a list of values, as in [2, 3]".into()),
+                        _ => faults.add("must be a list of values, as in [2, 3]"),
                     });
                 }
             }
@@ -259,12 +259,12 @@ impl Faults {
 
     fn look_into_named(&mut self, named: &NamedForm, tables: &Table) {
         if tables.len() < named.least {
-            self.add("is empty".into());
+            self.add("is empty");
         }
         for (name, value) in tables {
             self.below(name, |faults| {
                 if !named.allows(name) {
-                    faults.add(NO_FILE_NAME.into());
+                    faults.add(NO_FILE_NAME);
                 }
                 match value.as_table() {
                     Some(table) => faults.look_into(named.table, table),

@@ -93,7 +93,7 @@ impl<'a> Section<'a> {
 
     /// Reports each of some keys that is written.
     pub fn refuse(&self, keys: &[&'static str], words: &str) {
-        keys.iter().filter(|key| self.has(key)).for_each(|key| self.problem(&[key], words.into()));
+        keys.iter().filter(|key| self.has(key)).for_each(|key| self.problem(&[key], words));
     }
 
     /// Whether one of some keys is written; all are asked for.
@@ -150,14 +150,14 @@ impl<'a> Section<'a> {
     }
 
     /// Reports what is wrong with the value at a path below this table, as found in the file.
-    pub fn problem(&self, below: &[&str], words: String) {
+    pub fn problem(&self, below: &[&str], words: impl Into<String>) {
         let mut value = None;
         let mut table = self.table;
         for name in below {
             value = table.and_then(|table| table.get(*name));
             table = value.and_then(Value::as_table);
         }
-        self.record(below, value.filter(|value| !value.is_table()), words);
+        self.record(below, value.filter(|value| !value.is_table()), words.into());
     }
 
     /// Names of the tables under a key, whether or not they could be read.

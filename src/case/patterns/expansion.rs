@@ -30,7 +30,8 @@ pub struct Expansion<'a> {
 }
 
 impl Expansion<'_> {
-    pub fn problem(&mut self, path: &[&str], value: Option<&Value>, words: String) {
+    pub fn problem(&mut self, path: &[&str], value: Option<&Value>, words: impl Into<String>) {
+        let words = words.into();
         self.log.problems.push(Problem { key: told(path), value: value.map(quoted), words });
     }
 
@@ -153,7 +154,7 @@ impl Expansion<'_> {
             match &holding[..] {
                 [body] => self.replace(path, body.as_str().into()),
                 [] if all.is_empty() || point.is_none() => {}
-                [] => self.problem(&path, Some(&value), "none of these bodies has the point of the probe; move it inside".into()),
+                [] => self.problem(&path, Some(&value), "none of these bodies has the point of the probe; move it inside"),
                 [first, second, ..] => {
                     let words = format!("\"{first}\" and \"{second}\" touch at the point of the probe; name one of them");
                     self.problem(&path, Some(&value), words);

@@ -68,7 +68,7 @@ impl Expansion<'_> {
                 let all = bodies.len();
                 bodies = mesh.holding(&bodies, at);
                 if bodies.is_empty() && all > 0 {
-                    self.problem(&path, table.get("body"), "none of these bodies has the point of at; move it".into());
+                    self.problem(&path, table.get("body"), "none of these bodies has the point of at; move it");
                 }
             }
             let own = |body: String| (format!("{name}.{body}"), Table::from_iter([("body".to_owned(), Value::String(body))]));

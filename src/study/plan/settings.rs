@@ -93,7 +93,7 @@ fn settings(table: &Table, below: &[&str], section: &Section) -> Vec<Setting> {
     for (name, value) in table {
         let here: Vec<&str> = below.iter().copied().chain([name.as_str()]).collect();
         let Some(names) = read_key(name) else {
-            section.problem(&here, "must be a key of the case with dots, as in \"mesh.refine\"".into());
+            section.problem(&here, "must be a key of the case with dots, as in \"mesh.refine\"");
             continue;
         };
         let inner = match value {
