@@ -153,9 +153,7 @@ impl ResultFolder {
 
     /// Removes the result that was replaced.
     fn retire(&self, old: &Path) -> Result<(), OutputError> {
-        let own = OwnFiles::of(old).unwrap_or_default();
-        let own = self.kept.iter().fold(own, |own, kept| own.without(kept));
-        retire(old, &self.target, &own)
+        retire(old, &self.target, &OwnFiles::of(old).unwrap_or_default().without(self.kept.as_deref()))
     }
 
     /// Moves into a mount point, if the result there, which its summary makes one, is still that of the start.

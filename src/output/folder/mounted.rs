@@ -34,10 +34,9 @@ pub fn is_bare(target: &Path) -> Result<bool, OutputError> {
 /// # Errors
 /// The operating system refuses.
 pub fn move_in(temporary: &Path, target: &Path, kept: Option<&Path>) -> Result<(), OutputError> {
-    let before = OwnFiles::of(target).unwrap_or_default();
+    let before = OwnFiles::of(target).unwrap_or_default().without(kept);
     remove_if_there(&target.join(SUMMARY))?;
-    let before = kept.into_iter().fold(before, |own, kept| own.without(kept));
-    before.names().try_for_each(|name| remove_if_there(&target.join(name)))?;
+    before.0.iter().try_for_each(|name| remove_if_there(&target.join(name)))?;
     for name in names_within(temporary)?.iter().map(Path::new).filter(|name| kept != Some(*name)) {
         let (own, other) = (temporary.join(name), target.join(name));
         if other.symlink_metadata().is_ok() && !is_equal(&own, &other) {

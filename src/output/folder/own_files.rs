@@ -21,11 +21,6 @@ impl OwnFiles {
         is_result.then(|| Self(listed.chain([SUMMARY]).map(PathBuf::from).collect()))
     }
 
-    /// Their names.
-    pub fn names(&self) -> impl Iterator<Item = &PathBuf> {
-        self.0.iter()
-    }
-
     /// Whether the result has written the file of this name.
     pub fn has(&self, name: &Path) -> bool {
         self.0.contains(name)
@@ -36,9 +31,9 @@ impl OwnFiles {
         self.0.iter().any(|name| name.starts_with(folder))
     }
 
-    /// The same without one file, which is kept.
-    pub fn without(mut self, name: &Path) -> Self {
-        self.0.remove(name);
+    /// The same without the file that is kept, if one is.
+    pub fn without(mut self, kept: Option<&Path>) -> Self {
+        self.0.retain(|name| kept != Some(name.as_path()));
         self
     }
 }
