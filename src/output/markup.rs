@@ -19,6 +19,11 @@ pub fn document(title: &str, body: &str) -> String {
     )
 }
 
+/// What stands first on a page: of what kind it is, and what it is called.
+pub fn header(kind: &str, name: &str) -> String {
+    format!("<header>\n<p class=\"kind\">{}</p>\n<h1>{}</h1>\n</header>\n", escape(kind), escape(name))
+}
+
 /// A heading with a place that links of the page lead to.
 pub fn section(place: &str, text: &str) -> String {
     format!("<h2 id=\"{place}\">{}</h2>\n", escape(text))

@@ -6,7 +6,7 @@ use super::page::ReportPage;
 use super::{drawings, history, numbers, stresses, trust, verdict};
 use crate::output::data::write_text;
 use crate::output::error::OutputError;
-use crate::output::markup::{document, escape, section, verbatim};
+use crate::output::markup::{document, escape, header, section, verbatim};
 
 /// Writes `report.html` into the folder of a result, with the figures that are there.
 ///
@@ -36,10 +36,8 @@ fn html(folder: &Path, page: &ReportPage) -> String {
     let shown: Vec<_> = sections.iter().filter(|(_, _, text)| !text.is_empty()).collect();
     let links: String = shown.iter().map(|(place, name, _)| format!("<a href=\"#{place}\">{}</a>\n", escape(name))).collect();
     let body: String = shown.iter().map(|(place, name, text)| section(place, name) + text).collect();
-    let kind = format!("Case {}, mezha {}", summary.case, summary.mezha);
-    let (kind, heading, verdict) = (escape(&kind), escape(title), verdict::verdict(page));
-    let header = format!("<header>\n<p class=\"kind\">{kind}</p>\n<h1>{heading}</h1>\n</header>\n");
-    let name = format!("{title}: {}", verdict::word(summary.status));
+    let header = header(&format!("Case {}, mezha {}", summary.case, summary.mezha), title);
+    let (name, verdict) = (format!("{title}: {}", verdict::word(summary.status)), verdict::verdict(page));
     document(&name, &format!("{header}{verdict}<nav>\n{links}</nav>\n{body}"))
 }
 

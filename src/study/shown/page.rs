@@ -2,7 +2,7 @@
 
 use super::figure::law;
 use super::format::{Readable, about};
-use crate::output::markup::{document, escape, figure, grid, list, paragraph, section, table as rows};
+use crate::output::markup::{document, figure, grid, header, list, paragraph, section, table as rows};
 use crate::output::plot::{Diagram, DiagramBlock, diagrams, named_diagrams};
 use crate::study::table::fit::{FARTHEST, FITTED};
 use crate::study::table::lines::{Line, LinePoint};
@@ -59,8 +59,8 @@ pub fn html(table: &Table, lines: &[Line], figures: &Figures) -> String {
     sections.push(section("runs", "All runs"));
     let readable = Readable::new(table);
     sections.push(rows(&readable.header, &readable.rows));
-    let header = format!("<header>\n<p class=\"kind\">Study</p>\n<h1>{}</h1>\n</header>\n", escape(&table.study));
-    document(&format!("Study {}", table.study), &format!("{header}{}{}", list(&about(table)), sections.concat()))
+    let body = header("Study", &table.study) + &list(&about(table)) + &sections.concat();
+    document(&format!("Study {}", table.study), &body)
 }
 
 /// A diagram of one case.
