@@ -11,7 +11,7 @@ use super::acting::rigid::read_tool;
 use super::acting::support::{Supports, read_support};
 use super::asked::solver::read_solver;
 use super::asked::{accuracy, exact, output, steps};
-use super::bodies::gravity::{check_gravity, read_gravity};
+use super::bodies::gravity::read_gravity;
 use super::bodies::mesh::read_mesh;
 use super::bodies::{body, geometry, revolution};
 use super::contact::reading::read_contact;
@@ -140,7 +140,7 @@ impl Case {
         let accuracy = accuracy::read_accuracy(root, &contacts, &probes);
         body::check_bodies(root);
         body::check_parts(&bodies, root);
-        check_gravity(gravity, root);
+        body::check_gravity(gravity, root);
         geometry::check_geometries(&geometries, root);
         check_means(&means, root);
         accuracy::check_energy(accuracy.as_ref(), &point_loads, root);

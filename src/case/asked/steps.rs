@@ -4,8 +4,9 @@
 
 use toml::{Table, Value};
 
+use crate::case::bodies::body::with_parts;
 use crate::case::file::error::{dotted, suggest};
-use crate::case::file::overrides::{read_key, set_value};
+use crate::case::file::overrides::{read_key, set_value, value_at};
 use crate::case::keys::{FormOf, ListForm, NAME, NUMBER, Section, ValueForm, declare, entries, key, of, set, table};
 
 declare! {
@@ -120,9 +121,9 @@ fn places(root: &Table, key: &str) -> Result<Vec<Vec<String>>, String> {
         return Err(format!("cannot be scaled: of a {kind} that is {}, not {single}", keys.join(", ")));
     }
     let mut found = Vec::new();
-    for (above, table) in with_parts(&path[..2], table) {
+    for (below, table) in with_parts(table) {
         let scaled = keys.iter().filter(|key| single.is_none_or(|single| single == **key) && table.contains_key(**key));
-        found.extend(scaled.map(|key| [above.as_slice(), &[(*key).to_string()]].concat()));
+        found.extend(scaled.map(|key| [&path[..2], &below, &[(*key).to_string()]].concat()));
     }
     if let (true, Some(word @ ("closed" | "geometry"))) = (kind == "contact", table.get(keys[0]).and_then(Value::as_str)) {
         return Err(format!("has gap = \"{word}\", which is no number; only a number or a formula can be scaled"));
@@ -131,15 +132,6 @@ fn places(root: &Table, key: &str) -> Result<Vec<Vec<String>>, String> {
         return Err(format!("has nothing to scale: it gives no {}", single.map_or(keys.join(", "), String::from)));
     }
     Ok(found)
-}
-
-/// A table with its path, and those of its parts, if it has any.
-fn with_parts<'t>(path: &[String], table: &'t Table) -> Vec<(Vec<String>, &'t Table)> {
-    let parts = table.get("part").and_then(Value::as_table).into_iter().flatten();
-    let part =
-        |(name, value): (&String, &'t Value)| Some(([path, &["part".to_string(), name.clone()]].concat(), value.as_table()?));
-    let own = (path.to_vec(), table);
-    [own].into_iter().chain(parts.filter_map(part)).collect()
 }
 
 /// The factors of each step, and the table of the case with everything scaled; in the order of the steps. The factors are
@@ -167,9 +159,7 @@ fn scale(table: &mut Table, place: &[String], factor: f64) {
         without_weight(table);
         return;
     }
-    let (first, rest) = place.split_first().expect("a path has names");
-    let Some(found) = rest.iter().try_fold(table.get(first), |value, name| Some(value?.get(name))).flatten() else { return };
-    let value = times(found, factor);
+    let Some(value) = value_at(table, place).map(|found| times(found, factor)) else { return };
     set_value(table, place, value).expect("a value stands there already");
 }
 

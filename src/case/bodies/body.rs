@@ -1,5 +1,7 @@
 //! `[body.NAME]` and its parts: materials, and forces all over a body.
 
+use toml::{Table, Value};
+
 use super::gravity::{Gravity, read_weight, with_weight};
 use crate::body::{Body, BodyPart, Material};
 use crate::case::keys::{
@@ -124,6 +126,22 @@ pub fn check_parts(bodies: &[Body], root: &Section) {
 /// Names of all bodies, and of their parts.
 pub fn region_names<'a>(root: &Section<'a>) -> Vec<&'a str> {
     root.names_below("body").chain(root.names_two_below("body", "part")).collect()
+}
+
+/// The table of a body, and those of its parts if it has any, each with its path from there.
+pub fn with_parts(body: &Table) -> impl Iterator<Item = (Vec<String>, &Table)> {
+    let parts = body.get("part").and_then(Value::as_table).into_iter().flatten();
+    let parts = parts.filter_map(|(name, part)| Some((vec!["part".to_owned(), name.clone()], part.as_table()?)));
+    [(Vec::new(), body)].into_iter().chain(parts)
+}
+
+/// Gravity wants bodies that are heavy.
+pub fn check_gravity(gravity: Gravity, root: &Section) {
+    let is_heavy = |body: &Table| with_parts(body).any(|(_, table)| table.contains_key("density"));
+    let mut bodies = root.names_below("body").filter_map(|name| root.below("body", name));
+    if matches!(gravity, Gravity::Acceleration(_)) && !bodies.any(is_heavy) {
+        root.problem(&["gravity"], "acts on nothing; give density, mass per area and thickness, in some [body.NAME]");
+    }
 }
 
 /// There is something to solve for.

@@ -59,19 +59,6 @@ pub fn with_weight(force: [Formula; 2], weight: [f64; 2]) -> [Formula; 2] {
     })
 }
 
-/// Gravity wants bodies that are heavy.
-pub fn check_gravity(gravity: Gravity, root: &Section) {
-    let is_heavy = |body: &str| {
-        let parts = |body: &toml::Table| body.get("part").and_then(toml::Value::as_table).cloned().unwrap_or_default();
-        let is_dense = |table: &toml::Table| table.contains_key("density");
-        let has_dense_part = |body: &toml::Table| parts(body).values().filter_map(toml::Value::as_table).any(is_dense);
-        root.below("body", body).is_some_and(|body| is_dense(body) || has_dense_part(body))
-    };
-    if matches!(gravity, Gravity::Acceleration(_)) && !root.names_below("body").any(is_heavy) {
-        root.problem(&["gravity"], "acts on nothing; give density, mass per area and thickness, in some [body.NAME]");
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -86,6 +86,12 @@ pub fn set_value(table: &mut Table, path: &[String], value: Value) -> Result<(),
     Ok(())
 }
 
+/// The value at a path, if there is one.
+pub fn value_at<'t>(table: &'t Table, path: &[String]) -> Option<&'t Value> {
+    let (first, rest) = path.split_first()?;
+    rest.iter().try_fold(table.get(first)?, |value, name| value.get(name))
+}
+
 /// Names of a dotted key, read by TOML's own rules.
 pub fn read_key(key: &str) -> Option<Vec<String>> {
     let mut table: Table = toml::from_str(&format!("{} = 0", key.trim())).ok()?;

@@ -4,7 +4,7 @@ use super::merging::{StandsFor, merged};
 use super::mesh_names::{MeshNames, point};
 use super::wildcard::{is_pattern, matches};
 use crate::case::file::error::{Log, Problem, dotted, listed, quoted, told};
-use crate::case::file::overrides::{read_key, set_value};
+use crate::case::file::overrides::{read_key, set_value, value_at};
 use crate::geometry::Quote;
 use std::collections::{HashMap, HashSet};
 use toml::{Table, Value};
@@ -207,11 +207,6 @@ pub fn table_at<'t>(table: &'t Table, path: &[&str]) -> Option<&'t Table> {
 /// The table at a path, which is there.
 pub fn table_at_mut<'t>(table: &'t mut Table, path: &[String]) -> &'t mut Table {
     path.iter().fold(table, |table, name| table.get_mut(name).and_then(Value::as_table_mut).expect("a table that was read"))
-}
-
-pub fn value_at<'t>(table: &'t Table, path: &[String]) -> Option<&'t Value> {
-    let (first, rest) = path.split_first()?;
-    rest.iter().try_fold(table.get(first)?, |value, name| value.get(name))
 }
 
 pub fn keys_of(table: &Table, kind: &str) -> Vec<String> {
