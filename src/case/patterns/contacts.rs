@@ -28,7 +28,7 @@ impl Expansion<'_> {
         let plain = || tables.iter().filter(|(_, table)| !has_patterns(table) && table.get("between").is_some());
         let mut taken: HashSet<String> = plain().map(|(name, _)| name.to_lowercase()).collect();
         let joined: HashSet<[SideNames; 2]> = plain().filter_map(|(_, table)| both_sides(table)).map(in_order).collect();
-        let mut spread = SpreadTables::new();
+        let mut spread = SpreadTables::default();
         for (name, table) in &tables {
             let between = table.get("between").and_then(Value::as_array).map(Vec::as_slice);
             let Some([first, second]) = between.filter(|_| has_patterns(table)) else {

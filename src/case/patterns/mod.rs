@@ -7,18 +7,18 @@ mod contacts;
 mod expansion;
 mod merging;
 mod mesh_names;
-mod parts;
 mod spreading;
 mod wildcard;
 
 pub use expansion::Matched;
 
 use super::file::error::Log;
+use crate::mesh::{parse_gmsh, surfaces};
 use expansion::{Expansion, strings, table_at};
 use mesh_names::MeshNames;
 use std::collections::HashMap;
 use std::path::Path;
-use toml::Table;
+use toml::{Table, Value};
 use wildcard::is_pattern;
 
 /// Reads the bytes of a mesh by its path, or says why not.
@@ -68,6 +68,31 @@ pub fn written_out(table: Table, folder: &Path, log: &mut Log, bytes: ReadMesh) 
 }
 
 impl Expansion<'_> {
+    /// Writes out the parts of bodies, which join surfaces of a mesh, and reads it.
+    ///
+    /// # Errors
+    /// Words for a mesh that cannot be read.
+    fn write_out_parts(&mut self, bytes: &[u8], file: &Path) -> Result<MeshNames, String> {
+        let bodies = table_at(&self.table, &["body"]).into_iter().flatten();
+        let with_parts = bodies.filter(|(_, body)| body.get("part").is_some_and(Value::is_table));
+        let with_parts: Vec<String> = with_parts.map(|(name, _)| name.clone()).collect();
+        if !with_parts.is_empty() {
+            let surfaces = surfaces(bytes, file).map_err(|error| error.to_string())?;
+            with_parts.iter().for_each(|body| self.write_out_names(&["body", body, "part"], &surfaces, "physical surface"));
+        }
+        parse_gmsh(bytes, file, self.joined(&with_parts)).map(MeshNames::new).map_err(|error| error.to_string())
+    }
+
+    /// The body of each physical surface that is a part of one.
+    fn joined(&self, bodies: &[String]) -> HashMap<String, String> {
+        let parts = |body: &String| {
+            let parts = table_at(&self.table, &["body", body, "part"]).into_iter().flat_map(Table::keys);
+            parts.map(|part| (part.clone(), body.clone())).collect::<Vec<_>>()
+        };
+        bodies.iter().flat_map(parts).collect()
+    }
+
+    /// Writes out everything else, by the names of the mesh.
     fn write_out(&mut self, mesh: &MeshNames) {
         self.write_out_names(&["body"], &mesh.mesh.bodies, "body");
         self.write_out_values("geometry", "curves", &[&mesh.boundaries[..], &mesh.interfaces].concat(), "physical curve");

@@ -7,16 +7,13 @@ use super::wildcard::is_pattern;
 use toml::{Table, Value};
 
 /// Tables of a kind that stand for others, and what each of these has of its own.
+#[derive(Default)]
 pub struct SpreadTables {
     tables: Table,
     standing: Vec<StandsFor>,
 }
 
 impl SpreadTables {
-    pub fn new() -> Self {
-        Self { tables: Table::new(), standing: Vec::new() }
-    }
-
     /// A table that stands for itself.
     pub fn keep(&mut self, name: &str, table: &Value) {
         if !self.tables.contains_key(name) {
@@ -47,7 +44,7 @@ impl Expansion<'_> {
     pub(super) fn spread_loads(&mut self, mesh: &MeshNames) {
         for kind in ["support", "load"] {
             let Some(tables) = table_at(&self.table, &[kind]).cloned() else { continue };
-            let mut spread = SpreadTables::new();
+            let mut spread = SpreadTables::default();
             for (name, table) in &tables {
                 let own = self.on_bodies(kind, name, table, mesh);
                 match own {
