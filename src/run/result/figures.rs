@@ -6,7 +6,7 @@ use crate::case::Case;
 use crate::contact::{Configuration, Pair};
 use crate::discretisation::{Contact, Scene};
 use crate::element::{Plane, StressMeasure};
-use crate::mesh::MacroMesh;
+use crate::mesh::{MacroMesh, each_once};
 use crate::output::plot::{self, ContactZoom, DeformedFigure, DrawnContact, DrawnForce, Facet};
 use crate::output::summary::{BodySummary, MOST_WITH_FIGURES};
 use crate::output::{OutputError, RunError, Summary};
@@ -175,14 +175,9 @@ fn title_of(case: &Case, contact: &str) -> String {
 
 /// Names of both bodies of a contact; those of its boundaries where these do not tell them apart.
 pub fn sides(mesh: &MacroMesh, pair: &Pair) -> [String; 2] {
-    let body = |boundary: &String| {
-        let edges = mesh.boundary(boundary)?.edges.iter();
-        let mut bodies = edges.filter_map(|&edge| Some(mesh.triangles[mesh.edges[edge as usize].triangles[0]? as usize].body));
-        let first = bodies.next()?;
-        bodies.all(|body| body == first).then_some(first)
-    };
-    match pair.between.each_ref().map(body) {
-        [Some(one), Some(two)] if one != two => [one, two].map(|body| mesh.bodies[body as usize].clone()),
+    let bodies = |boundary: &String| each_once(mesh.edges_of(boundary).iter().map(|&edge| mesh.body_beside(edge)));
+    match pair.between.each_ref().map(bodies).each_ref().map(Vec::as_slice) {
+        [&[one], &[two]] if one != two => [one, two].map(|body| mesh.bodies[body].clone()),
         _ => pair.between.clone(),
     }
 }

@@ -92,13 +92,9 @@ fn probe_errors(case: &Case, found: &Evaluation, probe: &ProbePoint) -> Result<[
     let at = found.problem.scene.mesh.region(&probe.body);
     let (Some(exact), Some(at)) = (of_body(case, &probe.body), at) else { return Ok([None; 2]) };
     let x = [probe.point.x, probe.point.y];
-    let listed = exact.displacement.as_ref().and_then(|all| {
-        let place = all.at.iter().position(|point| *point == x)?;
-        Some(all.value[place])
-    });
-    let displacement = exact.u.as_ref().map(|u| [u[0].value(&x), u[1].value(&x)]).or(listed);
-    let stress =
-        exact.stress.as_ref().map(|stress| [0, 1, 2, 3].map(|k: usize| stress.get(k).map_or(0.0, |part| part.value(&x))));
+    let listed = exact.displacement.as_ref().and_then(|all| all.at.iter().zip(&all.value).find(|(point, _)| **point == x));
+    let displacement = exact.u.as_ref().map(|u| u.each_ref().map(|part| part.value(&x))).or(listed.map(|(_, value)| *value));
+    let stress = exact.stress.as_ref().map(|stress| stress.each_ref().map(|part| part.value(&x)));
     let Some(probed) = found.probe(at, probe.point)? else { return Ok([None; 2]) };
     let size = |stress: [f64; 4]| case.plane.stress_product(stress, stress).sqrt();
     Ok([
