@@ -69,10 +69,9 @@ pub fn must_be(wanted: &str, found: &Value) -> String {
 
 /// The entries of a list, or a single value that is no list.
 pub fn one_or_each<T>(value: &Value, read: impl Fn(&Value) -> Result<T, String>) -> Result<Vec<T>, String> {
-    match value {
-        Value::Array(list) => entries(list, read),
-        single => Ok(vec![read(single)?]),
-    }
+    let Value::Array(list) = value else { return Ok(vec![read(value)?]) };
+    let numbered = |(index, entry)| read(entry).map_err(|words| format!("entry {}: {words}", index + 1));
+    list.iter().enumerate().map(numbered).collect()
 }
 
 /// A list of at least one value, each once.
@@ -105,10 +104,4 @@ fn alike(a: &Value, b: &Value) -> bool {
         }
         _ => a == b,
     }
-}
-
-/// Every entry of a list.
-fn entries<T>(list: &[Value], read: impl Fn(&Value) -> Result<T, String>) -> Result<Vec<T>, String> {
-    let numbered = |(index, entry)| read(entry).map_err(|words| format!("entry {}: {words}", index + 1));
-    list.iter().enumerate().map(numbered).collect()
 }
