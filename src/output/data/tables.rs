@@ -29,18 +29,31 @@ pub fn contacts_table(contacts: &[(&str, &[String; 2])], summary: &Summary) -> S
     format!("{COLUMNS}\n{}", contacts.iter().filter_map(row).collect::<String>())
 }
 
+/// A column of a table of points of a contact boundary: its name, and what stands there.
+type TraceColumn = (&'static str, fn(&TracePoint) -> f64);
+
+/// What is told at each point of a contact boundary, by the names of the columns.
+pub const TRACE_COLUMNS: [TraceColumn; 11] = [
+    ("s", |p| p.arc),
+    ("x", |p| p.x.x),
+    ("y", |p| p.x.y),
+    ("nx", |p| p.normal.x),
+    ("ny", |p| p.normal.y),
+    ("lambda", |p| p.lambda),
+    ("gap", |p| p.gap),
+    ("un_1", |p| p.displacement[0]),
+    ("un_2", |p| p.displacement[1]),
+    ("sigma_1", |p| p.stress[0]),
+    ("sigma_2", |p| p.stress[1]),
+];
+
 /// The text of `contact_NAME.csv`: [`SIGNS`] as lines that start with `# `, the names of the columns, one line per point.
 ///
 /// Numbers are the shortest that read back as the same double.
 pub fn contact_table(points: &[TracePoint]) -> String {
     let head = SIGNS.iter().map(|line| format!("# {line}\n"));
-    let row = |p: &TracePoint| {
-        let [[un_1, un_2], [sigma_1, sigma_2]] = [p.displacement, p.stress];
-        let numbers = [p.arc, p.x.x, p.x.y, p.normal.x, p.normal.y, p.lambda, p.gap, un_1, un_2, sigma_1, sigma_2];
-        csv_line(&numbers.map(|number| format!("{number:?}")))
-    };
-    let columns = "s,x,y,nx,ny,lambda,gap,un_1,un_2,sigma_1,sigma_2\n".to_owned();
-    head.chain([columns]).chain(points.iter().map(row)).collect()
+    let row = |point: &TracePoint| csv_line(&TRACE_COLUMNS.map(|(_, value)| format!("{:?}", value(point))));
+    head.chain([csv_line(&TRACE_COLUMNS.map(|(name, _)| name.to_owned()))]).chain(points.iter().map(row)).collect()
 }
 
 /// A cell of the table with the name of its column; empty where nothing is known.

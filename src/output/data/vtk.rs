@@ -11,6 +11,7 @@ use base64::engine::general_purpose::STANDARD;
 use base64::write::EncoderWriter;
 
 use super::SIGNS;
+use super::tables::TRACE_COLUMNS;
 use crate::element::Order;
 use crate::output::error::OutputError;
 use crate::output::markup::escape;
@@ -86,7 +87,8 @@ pub fn write_parallel<S: AsRef<str>>(path: &Path, piece_file_names: &[S], is_hea
     })
 }
 
-/// Writes `contact_NAME.vtu`: the contact boundary as lines, with the columns of `contact_NAME.csv` at its points.
+/// Writes `contact_NAME.vtu`: the contact boundary as lines, with the columns of `contact_NAME.csv` at its points; places and normals
+/// are vectors.
 ///
 /// Two points at the same place, where λ jumps, are not joined.
 ///
@@ -95,16 +97,7 @@ pub fn write_parallel<S: AsRef<str>>(path: &Path, piece_file_names: &[S], is_hea
 pub fn write_curve(path: &Path, points: &[TracePoint]) -> Result<(), OutputError> {
     let joined = |&i: &usize| points[i].arc < points[i + 1].arc;
     let starts: Vec<usize> = (0..points.len().saturating_sub(1)).filter(joined).collect();
-    type NamedScalar = (&'static str, fn(&TracePoint) -> f64);
-    let scalars: [NamedScalar; 7] = [
-        ("s", |p| p.arc),
-        ("lambda", |p| p.lambda),
-        ("gap", |p| p.gap),
-        ("un_1", |p| p.displacement[0]),
-        ("un_2", |p| p.displacement[1]),
-        ("sigma_1", |p| p.stress[0]),
-        ("sigma_2", |p| p.stress[1]),
-    ];
+    let scalars = TRACE_COLUMNS.iter().filter(|(name, _)| !["x", "y", "nx", "ny"].contains(name));
     write_file(path, "UnstructuredGrid", |out| {
         write_mesh(
             out,
