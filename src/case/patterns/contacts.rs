@@ -75,15 +75,15 @@ impl Expansion<'_> {
             return vec![names.into_iter().map(String::from).collect()];
         }
         let before = self.matched.len();
-        let all = match side.is_array() {
-            true => self.names(&path, side, &mesh.boundaries, "physical curve"),
-            false => self.matching(&path, names[0], &known, "physical curve"),
+        let sides = if side.is_array() {
+            let all = self.names(&path, side, &mesh.boundaries, "physical curve");
+            mesh.of_each_body(all).into_iter().map(|(_, curves)| curves).collect()
+        } else {
+            let all = self.matching(&path, names[0], &known, "physical curve");
+            all.into_iter().map(|name| vec![name]).collect()
         };
         self.matched.truncate(before);
-        match side.is_array() {
-            true => mesh.of_each_body(all).into_iter().map(|(_, curves)| curves).collect(),
-            false => all.into_iter().map(|name| vec![name]).collect(),
-        }
+        sides
     }
 }
 
@@ -105,13 +105,11 @@ fn close(sides: &[Vec<SideNames>; 2], mesh: &MeshNames, tools: &[Tool]) -> Vec<[
     let among: Vec<[bool; 2]> = names.iter().map(|name| of.each_ref().map(|of| of.contains(name))).collect();
     let is_in_order = |a: usize, b: usize| among[a][0] && among[b][1];
     let pairs = close_sides(&mesh.mesh, &places, |a, b| is_in_order(a, b) || is_in_order(b, a));
-    let mut pairs: Vec<[usize; 2]> = pairs
-        .into_iter()
-        .map(|[a, b]| {
-            let pair = [a.min(b), a.max(b)];
-            if is_in_order(pair[0], pair[1]) { pair } else { [pair[1], pair[0]] }
-        })
-        .collect();
+    let ordered = |[a, b]: [usize; 2]| {
+        let (first, last) = (a.min(b), a.max(b));
+        if is_in_order(first, last) { [first, last] } else { [last, first] }
+    };
+    let mut pairs: Vec<[usize; 2]> = pairs.into_iter().map(ordered).collect();
     pairs.sort_unstable();
     pairs.into_iter().map(|pair| pair.map(|k| names[k].clone())).collect()
 }

@@ -67,14 +67,11 @@ fn lock() -> MutexGuard<'static, Option<ProgressLine>> {
 
 /// From now on, on rank 0, the line is shown if it is wanted: on a terminal, or as lines of a log where there is none.
 pub fn begin(show: ShowProgress, is_first: bool, quiet: bool, started: Instant) {
-    if !is_first || show == ShowProgress::Never {
+    if !is_first || show == ShowProgress::Never || quiet && show != ShowProgress::Always {
         return;
     }
     let terminal = terminal();
     let is_read = terminal.is_some() && std::env::var_os("TERM").is_none_or(|term| term != "dumb");
-    if quiet && show != ShowProgress::Always {
-        return;
-    }
     let is_log = show != ShowProgress::Always && !is_read;
     let [first, pulse] = if is_log { [IN_LOG; 2] } else { [FIRST, PULSE] };
     *lock() = Some(ProgressLine { started, terminal, place: RunPlace::default(), visible: false, is_log });
