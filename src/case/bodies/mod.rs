@@ -5,7 +5,6 @@
 
 pub mod body;
 pub mod geometry;
-pub mod grade;
 pub mod gravity;
 pub mod mesh;
 pub mod revolution;
