@@ -6,5 +6,4 @@
 
 pub mod reading;
 pub mod sides;
-pub mod table;
 pub mod tools;

@@ -12,7 +12,7 @@ use crate::case::bodies::body::{BODY, PLANE_LAW};
 use crate::case::bodies::geometry::GEOMETRY;
 use crate::case::bodies::gravity::GRAVITY;
 use crate::case::bodies::mesh::MESH;
-use crate::case::contact::table::CONTACT;
+use crate::case::contact::reading::CONTACT;
 use crate::case::keys::{ABOVE_ZERO, TEXT, declare, inner, key, named, named_in_files, some_named, table};
 use crate::element::Plane;
 use toml::Table;
