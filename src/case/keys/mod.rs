@@ -12,16 +12,15 @@
 mod check;
 mod declaring;
 mod form;
-mod from_value;
 pub mod section;
 pub mod values;
 
 pub use declaring::*;
 pub use form::*;
-pub use from_value::FromValue;
 pub use section::Section;
 #[cfg(test)]
 pub use tests::{never_asked, tables};
+pub use values::FromValue;
 
 #[cfg(test)]
 mod tests;

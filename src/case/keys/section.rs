@@ -6,7 +6,7 @@ use toml::{Table, Value};
 
 use super::declaring::Key;
 use super::form::{KeyForm, TableForm};
-use super::from_value::FromValue;
+use super::values::FromValue;
 use crate::case::file::error::{Log, Problem, quoted, suggest, told};
 
 /// One table of a file, read by the table of its keys, which has the form of each value and its default. When it is dropped, keys
