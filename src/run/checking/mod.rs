@@ -3,7 +3,6 @@
 //! In comes a case file, or a mesh alone; out come words, a figure, and TOML to paste. Nothing here writes a result, and only
 //! `info` needs more than one process.
 
-mod acting_lines;
 mod check;
 mod drawing;
 mod first_case;
