@@ -1,13 +1,12 @@
 //! From a scene to a result folder, all of it methods of [`Run`](super::Run), which all ranks call.
 //!
 //! In comes a scene, or one for each load step (`steps.rs`). `solve.rs` gives it to the procedure, `evaluate.rs` makes a summary of
-//! the solution, `judge.rs` its status and its reason, `files.rs`, `fields.rs` and `figures.rs` what lies beside it. Rank 0 alone
+//! the solution, with its status and its reason, `files.rs`, `fields.rs` and `figures.rs` what lies beside it. Rank 0 alone
 //! writes, but for the fields; what fails there is an error of all ranks alike.
 
 mod evaluate;
 mod fields;
 mod figures;
 mod files;
-mod judge;
 mod solve;
 mod steps;
