@@ -15,7 +15,7 @@ use crate::run::verdict::trust;
 use crate::run::verdict::unresolved::unresolved;
 use crate::run::verdict::warnings::after::{apart, large_strains, loaded_points, slivers};
 use crate::run::verdict::warnings::before::{IDLE, TO_DRIVE};
-use crate::run::verdict::warnings::shrinking::comes_loose;
+use crate::run::verdict::warnings::loose::comes_loose;
 use crate::run::{Run, accuracy};
 use std::collections::{BTreeMap, BTreeSet};
 

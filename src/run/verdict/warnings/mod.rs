@@ -2,5 +2,4 @@
 
 pub(crate) mod after;
 pub(crate) mod before;
-pub(crate) mod pulled;
-pub(crate) mod shrinking;
+pub(crate) mod loose;
