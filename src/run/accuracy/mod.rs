@@ -1,11 +1,9 @@
 //! What a run says of the accuracy that was asked for.
 
-mod extrapolation;
 mod goals;
 mod verdict;
 
-pub(super) use extrapolation::{sequences, would_take};
-pub(super) use goals::{estimate, name, of_how_many, request, told};
+pub(super) use goals::{estimate, name, of_how_many, request, sequences, told, would_take};
 pub(super) use verdict::judge;
 
 use super::memory;

@@ -1,6 +1,6 @@
 //! What is asked for, what is reached, and what it would take, in words and in the summary.
 
-use super::extrapolation::*;
+use super::goals::*;
 use super::*;
 use crate::accuracy::{ProbePoint, SequenceEnd};
 use crate::output::plot::grouped;

@@ -1,7 +1,6 @@
 //! Whether an accuracy is reached, and in which words.
 
-use super::extrapolation::would_take;
-use super::goals::{name, of_how_many, told};
+use super::goals::{name, of_how_many, told, would_take};
 use crate::accuracy::{Adaptation, SequenceEnd};
 use crate::output::plot::grouped;
 use crate::output::summary::Status;
