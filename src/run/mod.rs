@@ -88,8 +88,7 @@ use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
 use telling::progress;
-use telling::report::Report;
-use telling::stages::Stages;
+use telling::report::{Report, Stages};
 
 /// Solves a case and writes its results. **Collective**
 ///

@@ -7,7 +7,7 @@ use crate::output::RunError;
 use crate::petsc::StageGuard;
 use crate::procedure::{Event, Observer, Procedure, Solved, Work};
 use crate::run::reading::checks::check_pressures;
-use crate::run::telling::stages::Stages;
+use crate::run::telling::report::Stages;
 use crate::run::telling::{interruption, progress};
 use crate::run::verdict::true_errors::true_errors;
 use crate::run::{Run, accuracy, memory};

@@ -1,6 +1,5 @@
-//! What a run prints on rank 0 while it lives.
+//! What a run prints on rank 0 while it lives, and the stages whose times it tells.
 
-use super::stages::Stages;
 use super::{interruption, progress};
 use crate::accuracy::{Accuracy, AdaptedMesh};
 use crate::case::{Case, LoadStep};
@@ -8,8 +7,8 @@ use crate::discretisation::{Contact, Scene};
 use crate::element::Order;
 use crate::mesh::Numbering;
 use crate::output::summary::{MOST_TOLD, Memory, Provenance, Status, Time, WORST, clauses, listed};
-use crate::output::{Summary, Units};
-use crate::petsc::Session;
+use crate::output::{RunError, Summary, Units};
+use crate::petsc::{Session, Stage};
 use crate::procedure::Event;
 use crate::run::accuracy;
 use crate::run::memory::value;
@@ -21,6 +20,37 @@ use std::collections::HashSet;
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
+
+/// Stages of a run, as the summary times them.
+pub struct Stages {
+    /// Reading, partition.
+    pub mesh: Stage,
+    /// Assembly of matrices.
+    pub assemble: Stage,
+    /// Placing and coupling of contacts.
+    pub contact: Stage,
+    /// Setting up solvers.
+    pub setup: Stage,
+    /// Solving.
+    pub solve: Stage,
+    /// Looking at solutions, and writing them.
+    pub output: Stage,
+}
+
+impl Stages {
+    /// All stages. **Collective**
+    pub fn new(session: &Session) -> Result<Self, RunError> {
+        let stage = |name| Stage::new(session, name);
+        Ok(Self {
+            mesh: stage("mesh")?,
+            assemble: stage("assemble")?,
+            contact: stage("contact")?,
+            setup: stage("setup")?,
+            solve: stage("solve")?,
+            output: stage("output")?,
+        })
+    }
+}
 
 /// Prints to standard output, on rank 0 only and unless the run is quiet.
 #[derive(Clone)]
