@@ -16,7 +16,6 @@ use super::bodies::mesh::read_mesh;
 use super::bodies::{body, geometry, revolution};
 use super::contact::reading::read_contact;
 use super::contact::sides;
-use super::contact::tools::check_tools;
 use super::file::error::{CaseError, Log};
 use super::file::overrides::{overridden, set_value};
 use super::file::text::{name_of, read_text};
@@ -145,7 +144,7 @@ impl Case {
         check_means(&means, root);
         accuracy::check_energy(accuracy.as_ref(), &point_loads, root);
         sides::check_contacts(&contacts, &unions, &geometries, root);
-        check_tools(&tools, &contacts, root);
+        sides::check_tools(&tools, &contacts, root);
         steps::check_steps(&factors, root);
         revolution::check(plane, &bodies, gravity, root);
         let case = Self {

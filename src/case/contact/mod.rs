@@ -6,4 +6,3 @@
 
 pub mod reading;
 pub mod sides;
-pub mod tools;
