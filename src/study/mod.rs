@@ -23,7 +23,6 @@ use runs::execution::Execution;
 use runs::folder::{Folder, ResultPlace, Wanted};
 use runs::progress::Progress;
 use runs::record::{Program, Record, inputs, what};
-use shown::asked::asked_diagrams;
 use shown::page::Figures;
 use shown::{figure, format, page};
 use table::repeats::with_spreads;
@@ -50,7 +49,7 @@ pub fn run(file: &Path, overrides: &[String], out: &Path, force: bool) -> Result
     let lines = table::lines::lines(&plan, &results);
     let table = with_spreads(Table::new(&plan, &results), &plan);
     let figures = Figures {
-        asked: asked_diagrams(&table, &plan.figure),
+        asked: figure::asked_diagrams(&table, &plan.figure),
         first: figure::first_diagrams(&plan, &lines),
         all: figure::all_diagrams(&plan, &lines),
     };
