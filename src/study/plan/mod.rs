@@ -1,6 +1,5 @@
 //! The study file: TOML text to a checked list of runs.
 
-mod asked_figure;
 mod moves;
 pub(super) mod planned;
 mod settings;
@@ -18,13 +17,12 @@ use crate::case::overrides::{overridden, read_key};
 use crate::case::schema::STUDY;
 use crate::case::schema::study::{ALONG, CASES, COLUMNS, ERROR, FIGURE, RANKS, REPEAT, TIME, TIMEOUT};
 use crate::case::section::Section;
-use crate::case::{Case, name_of, read_text, values};
+use crate::case::{Case, listed, name_of, read_text, values};
 
-use asked_figure::asked_columns;
 use moves::Moves;
 use planned::{PlannedCase, PlannedRun};
 use settings::{StudyCurve, read_curve, read_grid, read_set};
-use summary_path::SummaryPath;
+use summary_path::{ONLY, SummaryPath};
 
 /// A checked study: what is run, and what is asked of each result.
 #[derive(Clone, Debug)]
@@ -163,6 +161,50 @@ fn check_curves(curves: &[StudyCurve], cases: &[PlannedCase], root: &Section) {
     for case in cases.iter().filter(|case| case.curves(curves).is_empty()) {
         let words = format!("no [[curve]] is drawn for \"{}\"; take it from cases, or name it in a curve", case.written);
         root.problem(&["cases"], words);
+    }
+}
+
+/// Columns of every study.
+const WORDS: [&str; 7] = ["case", "curve", "ranks", "unknowns", "multipliers", "krylov_iterations", "outer_iterations"];
+
+/// Figures of a contact, which mean those of the only contact of a case.
+const OF_CONTACT: [&str; 5] = ["force", "pressure_max", "approach", "slip", "oscillation"];
+
+/// Whole names of the columns that `figure` means; those that are places in `summary.json` join `columns`, beside `others` that the
+/// study asks for. Empty if the log knows what is wrong.
+fn asked_columns(
+    root: &Section,
+    names: &[String],
+    keys: &[String],
+    others: &[SummaryPath],
+    columns: &mut Vec<SummaryPath>,
+) -> Vec<String> {
+    let known: Vec<&str> = WORDS.into_iter().chain(keys.iter().map(String::as_str)).collect();
+    let places: Vec<SummaryPath> = others.iter().chain(columns.iter()).cloned().collect();
+    let all = || names.iter().map(|name| column(name, &known, &places)).collect();
+    let found: Vec<String> = root.made("figure", Some(()), |()| all()).unwrap_or_default();
+    for name in found.iter().filter(|name| !known.contains(&name.as_str())) {
+        let place = SummaryPath::parse(name).ok().filter(|place| !columns.contains(place));
+        columns.extend(place);
+    }
+    found
+}
+
+/// The whole name of a column by that, or by its last part.
+fn column(name: &str, known: &[&str], places: &[SummaryPath]) -> Result<String, String> {
+    let all = || known.iter().copied().chain(places.iter().map(|place| place.text.as_str()));
+    let mut same: Vec<&str> = all().filter(|other| other.strip_suffix(name).is_some_and(|rest| rest.ends_with('.'))).collect();
+    same.sort_unstable();
+    same.dedup();
+    match same[..] {
+        _ if all().any(|other| other == name) => Ok(name.into()),
+        [one] => Ok(one.into()),
+        [] if name.contains('.') => SummaryPath::parse(name).map(|place| place.text),
+        [] if OF_CONTACT.contains(&name) => Ok(SummaryPath::new(&["contact", ONLY, name]).text),
+        [] => {
+            Err(format!("there is no column {name}; there are {}, and any path in summary.json", listed(all().map(String::from))))
+        }
+        _ => Err(format!("{name} may be {}; write out which", same.join(" or "))),
     }
 }
 
