@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::page::ReportPage;
-use super::{drawings, history, numbers, stresses, trust, verdict};
+use super::{drawings, history, numbers, trust, verdict};
 use crate::output::data::write_text;
 use crate::output::error::OutputError;
 use crate::output::markup::{document, escape, header, section, verbatim};
@@ -27,7 +27,7 @@ fn html(folder: &Path, page: &ReportPage) -> String {
         ("estimate", "Estimated errors", trust::estimate(page)),
         ("history", "How it went", history::history(folder, page)),
         ("forces", "Forces and balances", numbers::forces(page)),
-        ("stresses", "Largest stresses", stresses::stresses(page)),
+        ("stresses", "Largest stresses", trust::stresses(page)),
         ("points", "Points", numbers::points(page)),
         ("effort", "Mesh, solver, time", numbers::effort(page)),
         ("provenance", "Where it comes from", numbers::provenance(page)),

@@ -5,7 +5,6 @@ mod history;
 mod layout;
 mod numbers;
 mod page;
-mod stresses;
 mod trust;
 mod verdict;
 
