@@ -6,7 +6,6 @@
 mod accuracy;
 mod body;
 mod contact;
-mod machine;
 mod provenance;
 mod steps;
 mod told;
@@ -14,8 +13,7 @@ mod told;
 pub use accuracy::{AccuracyStep, Cycles, GoalSummary};
 pub use body::BodySummary;
 pub use contact::{ContactEstimate, ContactSummary, ContactTrust, ZoneSummary};
-pub use machine::{machine, whole_machine};
-pub use provenance::Provenance;
+pub use provenance::{Provenance, machine, whole_machine};
 pub use steps::{StepContact, StepSummary};
 pub use told::{MOST_TOLD, MOST_WITH_FIGURES, WORST, alike, capital, clauses, lines_alike, listed};
 

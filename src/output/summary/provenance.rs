@@ -1,8 +1,11 @@
-//! Where a result comes from.
+//! Where a result comes from, and on which machine: times mean nothing without that.
 
 use super::read_summary;
 use serde::{Deserialize, Serialize};
+use std::fs;
+use std::num::NonZero;
 use std::path::Path;
+use std::thread::available_parallelism;
 
 /// What made a result, and of what. Nothing here is a number of the result: two runs that differ in date, host or command alone
 /// have the same digits.
@@ -73,6 +76,41 @@ fn quoted(options: &str) -> String {
     if options.is_empty() { "none".into() } else { format!("`{options}`") }
 }
 
+/// CPU, cores and memory in words, as the system tells them; cores are those that this process may use.
+pub fn machine() -> String {
+    let machine = describe(&read("cpuinfo"), available_parallelism().map_or(1, NonZero::get), &read("meminfo"));
+    match std::env::var("SLURM_JOB_NUM_NODES") {
+        Ok(nodes) if nodes != "1" => format!("{nodes} nodes of {machine}"),
+        _ => machine,
+    }
+}
+
+/// The same of this host with all of its cores: a rank may be bound to one of them.
+pub fn whole_machine() -> String {
+    let cpuinfo = read("cpuinfo");
+    describe(&cpuinfo, cores(&cpuinfo), &read("meminfo"))
+}
+
+fn read(name: &str) -> String {
+    fs::read_to_string(format!("/proc/{name}")).unwrap_or_default()
+}
+
+fn cores(cpuinfo: &str) -> usize {
+    cpuinfo.lines().filter(|line| line.starts_with("processor")).count().max(1)
+}
+
+fn describe(cpuinfo: &str, cores: usize, meminfo: &str) -> String {
+    let value = |text: &str, key: &str| {
+        let line = text.lines().find(|line| line.starts_with(key))?;
+        Some(line.split_once(':')?.1.split_whitespace().collect::<Vec<_>>().join(" "))
+    };
+    let cpu = value(cpuinfo, "model name").unwrap_or("CPU unknown".into());
+    let cores = if cores == 1 { "1 core".to_string() } else { format!("{cores} cores") };
+    let kib = value(meminfo, "MemTotal").and_then(|words| words.split(' ').next()?.parse::<f64>().ok());
+    let memory = kib.map_or("memory unknown".into(), |kib| format!("{:.0} GiB", kib / 1024.0 / 1024.0));
+    format!("{cpu}, {cores}, {memory}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -87,5 +125,14 @@ mod tests {
             other.differences(&before),
             ["ranks: 1 instead of 2", "PETSc options: none instead of `-ksp_type gcr`", "commit: abc instead of unknown"]
         );
+    }
+
+    #[test]
+    fn a_machine_has_cpu_cores_and_memory() {
+        let cpuinfo = "processor\t: 0\nmodel name\t: Great  CPU 9000\nprocessor\t: 1\nmodel name\t: Great CPU 9000\n";
+        let meminfo = "MemTotal:       24651612 kB\nMemFree:        1 kB\n";
+        assert_eq!(describe(cpuinfo, 2, meminfo), "Great CPU 9000, 2 cores, 24 GiB");
+        assert_eq!((cores(cpuinfo), cores("")), (2, 1));
+        assert_eq!(describe("", 1, ""), "CPU unknown, 1 core, memory unknown");
     }
 }
