@@ -3,7 +3,6 @@
 //! What is read afterwards has no patterns, so that a case with them is the one that somebody would have written by hand, to the
 //! last digit, and the resolved case says what they stood for.
 
-mod contacts;
 mod expansion;
 mod merging;
 mod mesh_names;
