@@ -2,7 +2,6 @@
 
 use crate::case::Choice;
 use crate::contact::{Configuration, Zone};
-use crate::discretisation::Contact;
 use crate::geometry::Point;
 use crate::output::summary::{ContactEstimate, ContactSummary, ContactTrust, ZoneSummary};
 use crate::procedure::Solved;
@@ -17,11 +16,15 @@ pub fn contact(solved: &Solved, found: &Evaluation, at: usize, points: &[TracePo
     let boundary = &contact.boundary;
     let (force, penetration) = (&balance.contacts[at], &found.penetrations[at]);
     let point = |s: f64| -> [f64; 2] { boundary.point(boundary.parameter_at(s)).into() };
-    let zones = Zones::new(solved, at, points);
-    let closed = zones.closed();
-    let corners = contact.pair.curve.is_found().then(|| found.corners(at, &zones.counting()));
+    let zones = pressure.zones();
+    // On a closed boundary zones may go on beyond its seam, and intervals do not.
+    let pressing: Vec<[f64; 2]> = zones.iter().map(|zone| zone.arcs).collect();
+    let mut closed: Vec<[f64; 2]> = zones.iter().flat_map(Zone::intervals).collect();
+    closed.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let counting = || pressure.counting(&zones, pressing.clone()).collect::<Vec<_>>();
+    let corners = contact.pair.curve.is_found().then(|| found.corners(at, &counting()));
+    let corner_error = corners.as_ref().map(|corners| corners.error);
     let is_reference = contact.pair.configuration == Configuration::Reference;
-    let pressing = zones.arcs();
     let missing = is_reference.then(|| found.missing_force(at, &pressing, points));
     let at_ends = if is_reference { found.slip_at_ends(at, &pressing, points) } else { None };
     let motion = found.motions[at];
@@ -34,7 +37,7 @@ pub fn contact(solved: &Solved, found: &Evaluation, at: usize, points: &[TracePo
         h_ratio: Some(contact.segment_ratio),
         inf_sup: solution.inf_sup.get(at).copied().flatten(),
         ends: Some(boundary.ends().map(|t| boundary.point(t).into())),
-        closed_edges: zones.closed_edges(),
+        closed_edges: zones.iter().map(|zone| contact.edges_on(zone)).reduce(f64::max),
         closed_points: Some(closed.iter().map(|ends| ends.map(point)).collect()),
         force: Some(force.force),
         unresolved_force: Some(found.unresolved_force(at, points)),
@@ -50,14 +53,14 @@ pub fn contact(solved: &Solved, found: &Evaluation, at: usize, points: &[TracePo
         slip_error: motion.and_then(|motion| motion.slip_error),
         rotation_error: motion.map(|motion| motion.rotation_error).or_else(growth),
         corner_angle: corners.as_ref().map(|corners| corners.angle.to_degrees()),
-        corner_error: corners.as_ref().map(|corners| corners.error),
+        corner_error,
         missing: missing.and_then(|(share, _)| share),
         missing_force: missing.map(|(_, force)| force),
         missing_beyond: found.missing_beyond(at),
         depth: Some(penetration.depth),
         deepest: (penetration.depth > 0.0).then(|| penetration.place.into()),
         approach: Some(penetration.approach),
-        zones: zones.summaries(corners.as_ref().map(|corners| corners.error)),
+        zones: zone_summaries(solved, at, points, &zones, corner_error),
         closed: Some(closed),
         judged: ContactTrust::default(),
     };
@@ -74,89 +77,55 @@ fn nearest(points: &[TracePoint]) -> Option<Point> {
 /// Fewer segments say nothing of each other.
 const LEAST_SEGMENTS: usize = 3;
 
-/// The zones of a contact, in order of arc length.
-struct Zones<'a> {
-    solved: &'a Solved,
-    /// Place of the contact among all.
+/// Each zone of contact `at` as the summary has it, in order of arc length; `points` are its traces, `corner_error` is what corners
+/// within the contact do to λ.
+fn zone_summaries(
+    solved: &Solved,
     at: usize,
-    /// Traces of the contact.
-    points: &'a [TracePoint],
-    contact: &'a Contact,
-    zones: Vec<Zone>,
+    points: &[TracePoint],
+    zones: &[Zone],
+    corner_error: Option<f64>,
+) -> Vec<ZoneSummary> {
+    let Solved { problem, solution, estimate, adaptation, .. } = solved;
+    let contact = &problem.contacts[at];
+    let pressure = solution.pressure(contact);
+    let estimates = estimate.of_zones(at, &pressure, zones, points);
+    // Meshes that adapt are refined there by more than one half, or by nothing.
+    let goes_on = if adaptation.is_none() { estimate.peaks_go_on(at) } else { Vec::new() };
+    let describe = |(k, share): (usize, f64)| {
+        let (zone, (found, at_ends)) = (&zones[k], &estimates[k]);
+        let before = |end: usize| at_ends.map(|values| values.map(|values| values[end]));
+        let grows = (0..2).any(|end| pressure.grows_towards(&problem.scene, zone, end, before(end)));
+        let goes_on = goes_on.get(k).is_none_or(|goes_on| *goes_on);
+        let joint = pressure.grows_at_joint(zone).filter(|_| goes_on).map(|t| contact.boundary.point(t).into());
+        let at_end = is_singular(grows, corner_error);
+        let singular = at_end || joint.is_some();
+        let edges = contact.edges_on(zone);
+        // All signs of a narrow zone may be small beside its error, unless they are very small.
+        let wide = edges >= EDGES.value && contact.segments_on(zone) >= LEAST_SEGMENTS;
+        let tells = |_: &f64| wide || found.worst.is_some_and(|worst| worst <= PROVES);
+        ZoneSummary {
+            ends: Some(zone.arcs),
+            edges: Some(edges),
+            segments: Some(contact.segments_on(zone)),
+            share: Some(share),
+            hertz_width: pressure.hertz_width(zone, points),
+            pressure_max: Some(pressure.peak_of(zone)),
+            lambda: found.pressure.filter(tells),
+            whole: found.inside.filter(tells),
+            worst: found.worst,
+            force: found.force,
+            peak: peak_error(found.peak.filter(tells), singular).map(|error| error.max(pressure.variation_at_joints(zone))),
+            peak_at_end: Some(pressure.peaks_at_end(zone)),
+            singular: Some(singular),
+            singular_at_end: Some(at_end),
+            singular_at: joint,
+            cut_off: Some(pressure.cut_off(&problem.scene.mesh, zone, &problem.contacts)),
+            corner: Some((0..2).any(|end| pressure.ends_at_a_corner(&problem.scene.mesh, zone, end))),
+        }
+    };
+    pressure.shares(zones).into_iter().enumerate().map(describe).collect()
 }
-
-impl<'a> Zones<'a> {
-    /// The zones of contact `at`; `points` are its traces.
-    fn new(solved: &'a Solved, at: usize, points: &'a [TracePoint]) -> Self {
-        let contact = &solved.problem.contacts[at];
-        Self { solved, at, points, contact, zones: solved.solution.pressure(contact).zones() }
-    }
-
-    /// Arc lengths of their ends; on a closed boundary they may go on beyond its seam.
-    fn arcs(&self) -> Vec<[f64; 2]> {
-        self.zones.iter().map(|zone| zone.arcs).collect()
-    }
-
-    /// Intervals of arc length that press, in ascending order.
-    fn closed(&self) -> Vec<[f64; 2]> {
-        let mut closed: Vec<[f64; 2]> = self.zones.iter().flat_map(Zone::intervals).collect();
-        closed.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        closed
-    }
-
-    /// Most edges of the softer body on a zone.
-    fn closed_edges(&self) -> Option<f64> {
-        self.zones.iter().map(|zone| self.contact.edges_on(zone)).reduce(f64::max)
-    }
-
-    /// Arcs of the zones that anyone would look at.
-    fn counting(&self) -> Vec<[f64; 2]> {
-        self.solved.solution.pressure(self.contact).counting(&self.zones, self.arcs()).collect()
-    }
-
-    /// Each zone as the summary has it; `corner_error` is what corners within the contact do to λ.
-    fn summaries(&self, corner_error: Option<f64>) -> Vec<ZoneSummary> {
-        let Self { solved: Solved { problem, solution, estimate, .. }, contact, zones, points, .. } = self;
-        let pressure = solution.pressure(contact);
-        let estimates = estimate.of_zones(self.at, &pressure, zones, points);
-        // Meshes that adapt are refined there by more than one half, or by nothing.
-        let goes_on = if self.solved.adaptation.is_none() { estimate.peaks_go_on(self.at) } else { Vec::new() };
-        let describe = |(k, share): (usize, f64)| {
-            let (zone, (found, at_ends)) = (&zones[k], &estimates[k]);
-            let before = |end: usize| at_ends.map(|values| values.map(|values| values[end]));
-            let grows = (0..2).any(|end| pressure.grows_towards(&problem.scene, zone, end, before(end)));
-            let goes_on = goes_on.get(k).is_none_or(|goes_on| *goes_on);
-            let joint = pressure.grows_at_joint(zone).filter(|_| goes_on).map(|t| contact.boundary.point(t).into());
-            let at_end = is_singular(grows, corner_error);
-            let singular = at_end || joint.is_some();
-            let edges = contact.edges_on(zone);
-            // All signs of a narrow zone may be small beside its error, unless they are very small.
-            let wide = edges >= EDGES.value && contact.segments_on(zone) >= LEAST_SEGMENTS;
-            let tells = |_: &f64| wide || found.worst.is_some_and(|worst| worst <= PROVES);
-            ZoneSummary {
-                ends: Some(zone.arcs),
-                edges: Some(edges),
-                segments: Some(contact.segments_on(zone)),
-                share: Some(share),
-                hertz_width: pressure.hertz_width(zone, points),
-                pressure_max: Some(pressure.peak_of(zone)),
-                lambda: found.pressure.filter(tells),
-                whole: found.inside.filter(tells),
-                worst: found.worst,
-                force: found.force,
-                peak: peak_error(found.peak.filter(tells), singular).map(|error| error.max(pressure.variation_at_joints(zone))),
-                peak_at_end: Some(pressure.peaks_at_end(zone)),
-                singular: Some(singular),
-                singular_at_end: Some(at_end),
-                singular_at: joint,
-                cut_off: Some(pressure.cut_off(&problem.scene.mesh, zone, &problem.contacts)),
-                corner: Some((0..2).any(|end| pressure.ends_at_a_corner(&problem.scene.mesh, zone, end))),
-            }
-        };
-        pressure.shares(zones).into_iter().enumerate().map(describe).collect()
-    }
-}
-
 /// Whether λ grows without bound towards an end: beside corners that matter it grows, too, and what looks singular may be one of
 /// them.
 fn is_singular(grows: bool, corner_error: Option<f64>) -> bool {
