@@ -25,34 +25,22 @@ pub fn json(table: &Table, lines: &[Line]) -> String {
     serde_json::to_string_pretty(&whole).expect("tables of JSON values are JSON") + "\n"
 }
 
-/// The table for people: repeats in one row, main columns that are not empty, results to four digits, reasons at the end and
-/// not of good runs.
-pub struct Readable {
-    /// Names of the columns, with units.
-    pub header: Vec<String>,
-    /// One row for all repeats of a run.
-    pub rows: Vec<Vec<String>>,
-}
-
-impl Readable {
-    /// Reads a table with one row per run.
-    pub fn new(table: &Table) -> Self {
-        let table = condensed(table);
-        let reason = table.place("reason").expect("a column of every table");
-        let cell = |row: usize, column: usize| match (table.columns[column].kind, &table.rows[row][column]) {
-            _ if column == reason && table.good[row] => String::new(),
-            (ColumnKind::Given, value) => plain(value),
-            (_, value) => rounded(value) + &spread(&table, row, column),
-        };
-        let order = (0..table.columns.len()).filter(|&column| column != reason).chain([reason]);
-        let main = order.filter(|&column| table.columns[column].kind != ColumnKind::Detail);
-        let is_empty = |column: usize| (0..table.rows.len()).all(|row| cell(row, column).is_empty());
-        let shown: Vec<usize> = main.filter(|&column| !is_empty(column)).collect();
-        Self {
-            header: shown.iter().map(|&column| table.units.of_place(&table.columns[column].name)).collect(),
-            rows: (0..table.rows.len()).map(|row| shown.iter().map(|&column| cell(row, column)).collect()).collect(),
-        }
-    }
+/// The table for people, of one with a row per run: names of the columns, with units, and one row for all repeats of a run. Main columns
+/// that are not empty, results to four digits, reasons at the end and not of good runs.
+pub fn readable(table: &Table) -> (Vec<String>, Vec<Vec<String>>) {
+    let table = condensed(table);
+    let reason = table.place("reason").expect("a column of every table");
+    let cell = |row: usize, column: usize| match (table.columns[column].kind, &table.rows[row][column]) {
+        _ if column == reason && table.good[row] => String::new(),
+        (ColumnKind::Given, value) => plain(value),
+        (_, value) => rounded(value) + &spread(&table, row, column),
+    };
+    let order = (0..table.columns.len()).filter(|&column| column != reason).chain([reason]);
+    let main = order.filter(|&column| table.columns[column].kind != ColumnKind::Detail);
+    let is_empty = |column: usize| (0..table.rows.len()).all(|row| cell(row, column).is_empty());
+    let shown: Vec<usize> = main.filter(|&column| !is_empty(column)).collect();
+    let header = shown.iter().map(|&column| table.units.of_place(&table.columns[column].name)).collect();
+    (header, (0..table.rows.len()).map(|row| shown.iter().map(|&column| cell(row, column)).collect()).collect())
 }
 
 /// How many runs there are and where they were made, in sentences.
@@ -75,15 +63,15 @@ pub fn about(table: &Table) -> Vec<String> {
 
 /// A page to read.
 pub fn markdown(table: &Table) -> String {
-    let readable = Readable::new(table);
+    let (header, rows) = readable(table);
     let line = |cells: &Vec<String>| format!("| {} |\n", cells.iter().map(|cell| escape(cell)).collect::<Vec<_>>().join(" | "));
     format!(
         "# Study {}\n\n{}\n\n{}|{}\n{}",
         table.study,
         about(table).join(" "),
-        line(&readable.header),
-        "---|".repeat(readable.header.len()),
-        readable.rows.iter().map(line).collect::<String>()
+        line(&header),
+        "---|".repeat(header.len()),
+        rows.iter().map(line).collect::<String>()
     )
 }
 

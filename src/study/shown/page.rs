@@ -1,7 +1,7 @@
 //! `report.html` of a study: figures and tables in one file, which needs nothing else.
 
 use super::figure::law;
-use super::format::{Readable, about};
+use super::format::{about, readable};
 use crate::output::markup::{document, figure, grid, header, list, paragraph, section, table as rows};
 use crate::output::plot::{Diagram, DiagramBlock, diagrams, named_diagrams};
 use crate::study::table::fit::{FARTHEST, FITTED};
@@ -57,8 +57,8 @@ pub fn html(table: &Table, lines: &[Line], figures: &Figures) -> String {
         sections.extend([paragraph("Errors, times, iterations of all lines."), grid(figures.all.iter().filter_map(block))]);
     }
     sections.push(section("runs", "All runs"));
-    let readable = Readable::new(table);
-    sections.push(rows(&readable.header, &readable.rows));
+    let (header_row, all) = readable(table);
+    sections.push(rows(&header_row, &all));
     let body = header("Study", &table.study) + &list(&about(table)) + &sections.concat();
     document(&format!("Study {}", table.study), &body)
 }
