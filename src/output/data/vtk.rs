@@ -21,9 +21,11 @@ const STRESS_COMPONENTS: [&str; 4] = ["XX", "YY", "XY", "ZZ"];
 /// Bytes that are encoded together: they stay in the cache.
 const CHUNK: usize = 3 << 13;
 
-const VTK_LINE: u8 = 3;
-const VTK_TRIANGLE: u8 = 5;
-const VTK_QUADRATIC_TRIANGLE: u8 = 22;
+/// A kind of cells: its number in VTK, and how many nodes each has.
+type CellKind = (u8, usize);
+const LINE: CellKind = (3, 2);
+const TRIANGLE: CellKind = (5, 3);
+const QUADRATIC_TRIANGLE: CellKind = (22, 6);
 
 /// A node of a piece, with the solution there.
 #[derive(Clone, Copy, Debug)]
@@ -103,7 +105,7 @@ pub fn write_curve(path: &Path, points: &[TracePoint]) -> Result<(), OutputError
             out,
             points.iter().map(|p| [p.x.x, p.x.y]),
             starts.iter().flat_map(|&start| [start as i32, start as i32 + 1]),
-            &CellShape { count: starts.len(), nodes: 2, kind: VTK_LINE },
+            (starts.len(), LINE),
         )?;
         writeln!(out, "<PointData Scalars=\"lambda\" Normals=\"normal\">")?;
         for (name, value) in scalars {
@@ -130,12 +132,12 @@ pub fn write_series<S: AsRef<str>>(path: &Path, files: &[(f64, S)]) -> Result<()
 impl Piece {
     fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let (points, cells) = (self.nodes.len(), self.parts.len());
-        let (kind, nodes) = match self.order {
-            Order::P1 => (VTK_TRIANGLE, 3),
-            Order::P2 => (VTK_QUADRATIC_TRIANGLE, 6),
+        let kind = match self.order {
+            Order::P1 => TRIANGLE,
+            Order::P2 => QUADRATIC_TRIANGLE,
         };
         let (places, connectivity) = (self.nodes.iter().map(|node| node.place), self.cells.iter().map(|&node| node as i32));
-        write_mesh(out, places, connectivity, &CellShape { count: cells, nodes, kind })?;
+        write_mesh(out, places, connectivity, (cells, kind))?;
 
         writeln!(out, "<PointData Vectors=\"displacement\" Scalars=\"von_mises\">")?;
         let displacement =
@@ -162,27 +164,19 @@ impl Piece {
     }
 }
 
-/// Cells of one kind.
-struct CellShape {
-    count: usize,
-    nodes: usize,
-    kind: u8,
-}
-
-/// Opens a piece and writes its points and cells.
+/// Opens a piece and writes its points and so many cells of one kind.
 fn write_mesh(
     out: &mut impl Write,
     points: impl ExactSizeIterator<Item = [f64; 2]>,
     connectivity: impl Iterator<Item = i32>,
-    cells: &CellShape,
+    (count, (kind, nodes)): (usize, CellKind),
 ) -> io::Result<()> {
-    let (count, nodes) = (cells.count, cells.nodes);
     writeln!(out, "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{count}\">\n<Points>", points.len())?;
     write_array(out, "Points", 3, &[], 3 * points.len(), points.flat_map(|x| [x[0], x[1], 0.0].map(f64::to_le_bytes)))?;
     writeln!(out, "</Points>\n<Cells>")?;
     write_array(out, "connectivity", 1, &[], count * nodes, connectivity.map(i32::to_le_bytes))?;
     write_array(out, "offsets", 1, &[], count, (1..=count).map(|cell| ((cell * nodes) as i32).to_le_bytes()))?;
-    write_array(out, "types", 1, &[], count, std::iter::repeat_n([cells.kind], count))?;
+    write_array(out, "types", 1, &[], count, std::iter::repeat_n([kind], count))?;
     writeln!(out, "</Cells>")
 }
 
@@ -286,7 +280,7 @@ mod tests {
         assert_eq!(doubles(&decoded(&text, "von_mises")), [5.0, 6.0, 7.0]);
         assert_eq!(decoded(&text, "connectivity"), [0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]);
         assert_eq!(decoded(&text, "offsets"), [3, 0, 0, 0]);
-        assert_eq!(decoded(&text, "types"), [VTK_TRIANGLE]);
+        assert_eq!(decoded(&text, "types"), [TRIANGLE.0]);
         assert_eq!(["body", "part", "rank"].map(|name| decoded(&text, name)), [9, 7, 4].map(|number| vec![number, 0, 0, 0]));
         assert!(text.contains("ComponentName3=\"ZZ\"") && SIGNS.iter().all(|sign| text.contains(sign)));
     }
