@@ -13,7 +13,7 @@ use crate::output::{RunError, Units};
 use crate::procedure::Procedure;
 use crate::run::checking::drawing::{acting, vector};
 use crate::run::checking::proposals::{proposed_contacts, proposed_supports, short, take_refused, with_tables};
-use crate::run::checking::tools::{ProposedTool, ProposedTools};
+use crate::run::checking::tools::{ProposedTool, proposed_tools};
 use crate::run::reading::checks::check_pressures;
 use crate::run::reading::{origin, scene};
 use crate::run::telling::report::contact_lines;
@@ -153,7 +153,7 @@ fn body_lines(case: &Case) -> Vec<String> {
 fn proposals(case: &Case, mesh: &MacroMesh, is_loose: bool) -> String {
     let [contacts, mut refused] = proposed_contacts(case, mesh);
     let supports = if is_loose { proposed_supports(case) } else { Vec::new() };
-    let mut tools = ProposedTools::of(mesh, &case.tools, &case.contacts).tools;
+    let (mut tools, _) = proposed_tools(mesh, &case.tools, &case.contacts);
     let tables = |tools: &[ProposedTool]| -> Vec<String> { tools.iter().map(|tool| tool.text.clone()).collect() };
     let aside = take_refused(&mut tools, |tool| &tool.between, |tools| with_tables(case, tables(tools)));
     refused.extend(aside.into_iter().map(|(tool, why)| tool.set_aside(&why)));

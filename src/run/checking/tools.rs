@@ -44,34 +44,26 @@ fn set_aside(curve: &str, why: &str) -> String {
     format!("curve {} bounds no body, and is not taken for a rigid tool: {why}", quoted(curve))
 }
 
-/// The tools that the curves without triangles may be drawn for.
-pub struct ProposedTools {
-    pub tools: Vec<ProposedTool>,
-    /// Words for each curve that none can be made of.
-    pub aside: Vec<String>,
-}
-
-impl ProposedTools {
-    /// Those that are straight or circles, face a boundary, do not lie inside of a body, and are none of the tools of the case.
-    pub fn of(mesh: &MacroMesh, tools: &[Tool], contacts: &[Pair]) -> Self {
-        let mut names = TableNames::of(tools.iter().map(|tool| tool.key().trim_start_matches("rigid.").to_owned()));
-        let mut names_of_contacts = TableNames::of(contacts.iter().map(|pair| pair.name.clone()));
-        let mut proposed = Self { tools: Vec::new(), aside: Vec::new() };
-        for curve in mesh.loose.iter().filter(|curve| !tools.iter().any(|tool| is_drawn(curve, &tool.surface))) {
-            match pressing(mesh, tools, curve) {
-                Ok((boundary, lines)) => {
-                    let name = names.fresh(&curve.name);
-                    let contact = names_of_contacts.fresh(&common_name(&[boundary.clone(), name.clone()]));
-                    let between = [boundary, format!("rigid.{name}")];
-                    let sides = between.each_ref().map(|side| quoted(side)).join(", ");
-                    let text = format!("[rigid.{name}]\n{lines}\n[contact.{contact}]\nbetween = [{sides}]\n");
-                    proposed.tools.push(ProposedTool { curve: curve.name.clone(), between, text });
-                }
-                Err(why) => proposed.aside.push(set_aside(&curve.name, &why)),
+/// The tools that the curves without triangles may be drawn for: those that are straight or circles, face a boundary, do not lie inside of
+/// a body, and are none of the tools of the case; and words for each curve that none can be made of.
+pub fn proposed_tools(mesh: &MacroMesh, tools: &[Tool], contacts: &[Pair]) -> (Vec<ProposedTool>, Vec<String>) {
+    let mut names = TableNames::of(tools.iter().map(|tool| tool.key().trim_start_matches("rigid.").to_owned()));
+    let mut names_of_contacts = TableNames::of(contacts.iter().map(|pair| pair.name.clone()));
+    let (mut proposed, mut aside) = (Vec::new(), Vec::new());
+    for curve in mesh.loose.iter().filter(|curve| !tools.iter().any(|tool| is_drawn(curve, &tool.surface))) {
+        match pressing(mesh, tools, curve) {
+            Ok((boundary, lines)) => {
+                let name = names.fresh(&curve.name);
+                let contact = names_of_contacts.fresh(&common_name(&[boundary.clone(), name.clone()]));
+                let between = [boundary, format!("rigid.{name}")];
+                let sides = between.each_ref().map(|side| quoted(side)).join(", ");
+                let text = format!("[rigid.{name}]\n{lines}\n[contact.{contact}]\nbetween = [{sides}]\n");
+                proposed.push(ProposedTool { curve: curve.name.clone(), between, text });
             }
+            Err(why) => aside.push(set_aside(&curve.name, &why)),
         }
-        proposed
     }
+    (proposed, aside)
 }
 
 /// The boundary that a curve would press on as a tool, and the lines of its table; or why it is none.

@@ -4,7 +4,7 @@ use super::named_curve::{ALONG, LOADED, MIRRORED, NamedCurve, PULLED};
 use crate::contact::{ClosePair, close_pairs};
 use crate::geometry::{Point, cross};
 use crate::mesh::{Boundary, MacroMesh};
-use crate::run::checking::tools::{PRESSED as MOVED, ProposedTool, ProposedTools};
+use crate::run::checking::tools::{PRESSED as MOVED, ProposedTool, proposed_tools};
 use std::cmp::Ordering;
 
 /// Young's modulus and Poisson's ratio of the example: steel, in MPa.
@@ -72,7 +72,7 @@ pub struct Guesses<'a> {
 impl<'a> Guesses<'a> {
     pub fn new(mesh: &'a MacroMesh) -> Self {
         let pairs = close_pairs(mesh, &[]);
-        let ProposedTools { tools, aside } = ProposedTools::of(mesh, &[], &[]);
+        let (tools, aside) = proposed_tools(mesh, &[], &[]);
         let mut curves: Vec<_> = mesh.boundaries.iter().filter_map(|boundary| NamedCurve::new(mesh, boundary, &pairs)).collect();
         curves.iter_mut().for_each(|curve| curve.is_touched |= tools.iter().any(|tool| tool.between[0] == curve.name));
         let is_known = |bodies: &[usize; 2]| pairs.iter().any(|pair| pair.bodies == *bodies);
