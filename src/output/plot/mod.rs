@@ -13,5 +13,5 @@ pub use diagrams::{
     Diagram, DiagramBlock, DiagramLine, DrawnContact, Mark, Sequence, diagrams, named_diagrams, write_accuracy, write_along,
     write_step_figure,
 };
-pub use drawing::{Axis, LegendCell, bounds, grouped, number_text, number_to};
+pub use drawing::{Axis, LegendCell, bounds, grouped, number_text, number_to, range_of};
 pub use scene::{BoundaryPoint, DrawnLoad, DrawnPart, DrawnSupport, Grip, NamedRows, Rows, SceneFigure};

@@ -6,6 +6,7 @@ use crate::case::{Case, LoadStep};
 use crate::discretisation::{Contact, Scene};
 use crate::element::Order;
 use crate::mesh::Numbering;
+use crate::output::plot::range_of;
 use crate::output::summary::{MOST_TOLD, Memory, Provenance, Status, Time, WORST, clauses, listed};
 use crate::output::{RunError, Summary, Units};
 use crate::petsc::{Session, Stage};
@@ -275,11 +276,8 @@ impl Report {
 pub fn contact_lines(contacts: &[Contact], units: &Units) -> Vec<String> {
     let unit = units.length().after();
     if contacts.len() > MOST_TOLD {
-        let range = |all: &mut dyn Iterator<Item = f64>| {
-            all.fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], one| [least.min(one), most.max(one)])
-        };
-        let [fewest, most] = range(&mut contacts.iter().map(|contact| contact.boundary.segments() as f64));
-        let [shortest, longest] = range(&mut contacts.iter().map(|contact| contact.boundary.length())).map(length);
+        let [fewest, most] = range_of(contacts.iter().map(|contact| contact.boundary.segments() as f64));
+        let [shortest, longest] = range_of(contacts.iter().map(|contact| contact.boundary.length())).map(length);
         let multipliers: usize = contacts.iter().map(|contact| contact.multipliers.count()).sum();
         let count = contacts.len();
         return vec![format!(

@@ -2,7 +2,7 @@
 //! for each case.
 
 use super::format::plain;
-use crate::output::plot::{Axis, Diagram, DiagramBlock, DiagramLine, LegendCell, Mark};
+use crate::output::plot::{Axis, Diagram, DiagramBlock, DiagramLine, LegendCell, Mark, range_of};
 use crate::study::plan::Plan;
 use crate::study::plan::summary_path::SummaryPath;
 use crate::study::table::fit::PowerLaw;
@@ -201,7 +201,7 @@ fn point(table: &Table, row: usize, [x, y]: [usize; 2], by: &[usize]) -> Option<
 
 /// An axis around values, logarithmic where they span decades.
 fn axis(name: String, values: impl Iterator<Item = f64>) -> Axis {
-    let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
+    let [low, high] = range_of(values);
     let logarithmic = low > 0.0 && high > DECADES * low;
     Axis { name, logarithmic, fits: true, ..Axis::default() }
 }

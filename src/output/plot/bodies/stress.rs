@@ -4,7 +4,7 @@ use super::facets::Facet;
 use crate::element::{MEASURE_NAMES, MEASURES, StressMeasure};
 use crate::output::plot::drawing::{
     Canvas, Chart, Colour, Frame, GREY, INK, LegendCell, Letters, Paint, Scale, TextAnchor, cut_off, diverging, edges_around,
-    merged, number_text, viridis,
+    merged, number_text, range_of, viridis,
 };
 use crate::output::units::Unit;
 
@@ -96,9 +96,7 @@ pub fn draw_stress(canvas: &mut Canvas, chart: &Chart, facets: &[Facet], scale: 
     let mut edges = vec![Vec::new(); LEVELS];
     for facet in facets {
         let (corners, steps) = (facet.deformed(scale), colours.steps(facet));
-        let [low, high] =
-            [steps.iter().copied().fold(f64::INFINITY, f64::min), steps.iter().copied().fold(f64::NEG_INFINITY, f64::max)];
-        let [first, last] = [low, high].map(Colours::level);
+        let [first, last] = range_of(steps.into_iter()).map(Colours::level);
         for (level, edges) in edges.iter_mut().enumerate().take(last + 1).skip(first) {
             let lower = if level > 0 { level as f64 } else { f64::NEG_INFINITY };
             let upper = if level + 1 < LEVELS { level as f64 + 1.0 } else { f64::INFINITY };

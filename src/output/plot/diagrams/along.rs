@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::output::error::OutputError;
 use crate::output::plot::drawing::{
-    BLUE, Canvas, Chart, Colour, GREEN, GREY, HEAD, LegendCell, Paint, Scale, VERMILION, cut_off, number_text, widened,
+    BLUE, Canvas, Chart, Colour, GREEN, GREY, HEAD, LegendCell, Paint, Scale, VERMILION, cut_off, number_text, range_of, widened,
 };
 use crate::output::units::{Unit, Units};
 use crate::recovery::TracePoint;
@@ -152,7 +152,7 @@ fn thinned(run: &[[f64; 2]], column: f64) -> Vec<[f64; 2]> {
 /// Smallest and largest finite value of all curves.
 fn finite_range(path: &Path, points: &[TracePoint], curves: &[DrawnCurve]) -> Result<[f64; 2], OutputError> {
     let values = curves.iter().flat_map(|curve| points.iter().map(curve.value)).filter(|value| value.is_finite());
-    let range = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
+    let range = range_of(values);
     if range[0] > range[1] {
         return Err(OutputError::Figure { path: path.into(), reason: "no point has a finite value".into() });
     }

@@ -22,5 +22,5 @@ pub use outline::{edges_around, loops, merged, path_data, tenths, unmatched};
 pub use paint::{
     BLUE, Colour, GREEN, GREY, INK, LINES, Letters, Paint, TextAnchor, VERMILION, WHITE, diverging, text_width, viridis,
 };
-pub use scale::{Axis, Scale, widened};
+pub use scale::{Axis, Scale, range_of, widened};
 pub use ticks::{cut_off, grouped, number_text, number_to, round_number};

@@ -38,8 +38,7 @@ impl Axis {
 
     /// The axis with room around these values.
     pub fn around(&self, values: impl Iterator<Item = f64>) -> Scale {
-        let shown = values.filter(|value| self.shows(*value));
-        let [low, high] = shown.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
+        let [low, high] = range_of(values.filter(|value| self.shows(*value)));
         let (mut range, ticks) = if self.logarithmic {
             let room = (high / low).powf(0.06).max(1.25);
             let range = [low / room, high * room];
@@ -104,6 +103,11 @@ impl Scale {
         let widths = self.ticks().into_iter().map(|(_, label)| text_width(label, LABEL));
         (BESIDE + widths.fold(0.0, f64::max)).ceil().max(LEAST_BESIDE)
     }
+}
+
+/// The least and the largest of some values; without bound, and the other way round, if there are none.
+pub fn range_of(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
 }
 
 /// A range with some room on both sides, by this share of it; a single value becomes a range around it.

@@ -4,6 +4,7 @@ use super::named_curve::{ALONG, LOADED, MIRRORED, NamedCurve, PULLED};
 use crate::contact::{ClosePair, close_pairs};
 use crate::geometry::{Point, cross};
 use crate::mesh::{Boundary, MacroMesh};
+use crate::output::plot::range_of;
 use crate::run::checking::tools::{PRESSED as MOVED, ProposedTool, proposed_tools};
 use std::cmp::Ordering;
 
@@ -263,7 +264,7 @@ impl<'a> Guesses<'a> {
     /// How low and how high a body reaches.
     fn ends(&self, body: usize) -> [f64; 2] {
         let own = self.mesh.pieces.iter().zip(self.mesh.bounds()).filter(|(piece, _)| piece.body == body);
-        own.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (_, [a, b])| [low.min(a.y), high.max(b.y)])
+        range_of(own.flat_map(|(_, [low, high])| [low.y, high.y]))
     }
 
     fn area(&self, body: usize) -> f64 {
