@@ -20,6 +20,7 @@ use super::file::error::{CaseError, Log};
 use super::file::overrides::{overridden, set_value};
 use super::file::text::{name_of, read_text};
 use super::keys::Section;
+use super::keys::section::read_whole;
 use super::model::{Case, LoadStep};
 use super::patterns::{self, Matched, ReadMesh};
 use super::schema::case::{CASE, PLANE, THICKNESS, TITLE};
@@ -76,13 +77,7 @@ impl Case {
     /// # Errors
     /// [`CaseError`] with everything that is wrong.
     fn from_table(mut table: Table, log: Log, file: &Path) -> Result<Self, CaseError> {
-        let log = RefCell::new(log);
-        let draft = Self::from_section(&Section::root(&table, &CASE, &log), file);
-        let mut log = log.into_inner();
-        CASE.add_faults(&table, &mut log);
-        let Some(mut case) = draft.filter(|_| log.problems.is_empty()) else {
-            return Err(CaseError { file: file.into(), problems: log.problems });
-        };
+        let (mut case, log) = read_whole((&table, log), &CASE, file, |root| Self::from_section(root, file))?;
         for (path, value) in log.defaults {
             set_value(&mut table, &path, value).expect("a default stands in a table that was just read");
         }

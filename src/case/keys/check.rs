@@ -6,7 +6,7 @@ use super::form::{
     Absent, KeyForm, LONGEST_NAME, ListForm, NO_FILE_NAME, NamedForm, NumberRange, TableForm, TableRule, ValueForm,
 };
 use super::values::{self, must_be};
-use crate::case::file::error::{Log, Problem, decimal_comma, did_you_mean, told};
+use crate::case::file::error::{decimal_comma, did_you_mean, told};
 use crate::geometry::Formula;
 
 /// Neighbours of a key that are listed at most.
@@ -162,14 +162,6 @@ impl TableForm {
         let mut faults = Faults::default();
         faults.look_into(self, table);
         faults.found
-    }
-
-    /// Adds what the table of keys refuses of a file in which the readers have found nothing wrong: the table has the last word.
-    pub fn add_faults(&self, table: &Table, log: &mut Log) {
-        if log.problems.is_empty() {
-            let problem = |(key, words)| Problem { key, value: None, words };
-            log.problems.extend(self.faults(table).into_iter().map(problem));
-        }
     }
 
     /// Words for a key that such a table may have, but not beside the others of this one; nothing for a key that it never has.

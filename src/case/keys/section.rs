@@ -1,13 +1,14 @@
 //! A table of a case or a study file, read by the table of its keys, that remembers which of them were asked for.
 
 use std::cell::RefCell;
+use std::path::Path;
 
 use toml::{Table, Value};
 
 use super::declaring::Key;
 use super::form::{KeyForm, TableForm};
 use super::values::FromValue;
-use crate::case::file::error::{Log, Problem, quoted, suggest, told};
+use crate::case::file::error::{CaseError, Log, Problem, quoted, suggest, told};
 
 /// One table of a file, read by the table of its keys, which has the form of each value and its default. When it is dropped, keys
 /// that nobody asked for are reported: read every key before giving up on one.
@@ -231,6 +232,30 @@ impl<'a> Section<'a> {
         let source = if from_command_line { " (--set)" } else { "" };
         let value = value.map(|value| format!("{}{source}", quoted(value)));
         log.add(Problem { key: told(&path), value, words });
+    }
+}
+
+/// What readers make of the table of a whole file, and the log of it. Where they have found nothing wrong, the table of keys has the last
+/// word.
+///
+/// # Errors
+/// [`CaseError`] with everything that is wrong.
+pub fn read_whole<T>(
+    (table, log): (&Table, Log),
+    form: &'static TableForm,
+    file: &Path,
+    read: impl FnOnce(&Section) -> Option<T>,
+) -> Result<(T, Log), CaseError> {
+    let log = RefCell::new(log);
+    let made = read(&Section::root(table, form, &log));
+    let mut log = log.into_inner();
+    if log.problems.is_empty() {
+        let problem = |(key, words)| Problem { key, value: None, words };
+        log.problems.extend(form.faults(table).into_iter().map(problem));
+    }
+    match made {
+        Some(made) if log.problems.is_empty() => Ok((made, log)),
+        _ => Err(CaseError { file: file.into(), problems: log.problems }),
     }
 }
 

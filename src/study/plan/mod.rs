@@ -5,7 +5,6 @@ pub(super) mod planned;
 mod settings;
 pub(super) mod summary_path;
 
-use std::cell::RefCell;
 use std::ops::Range;
 use std::path::Path;
 use std::time::Duration;
@@ -16,7 +15,7 @@ use crate::case::error::{CaseError, dotted};
 use crate::case::overrides::{overridden, read_key};
 use crate::case::schema::STUDY;
 use crate::case::schema::study::{ALONG, CASES, COLUMNS, ERROR, FIGURE, RANKS, REPEAT, TIME, TIMEOUT};
-use crate::case::section::Section;
+use crate::case::section::{Section, read_whole};
 use crate::case::{Case, listed, name_of, read_text, values};
 
 use moves::Moves;
@@ -69,12 +68,7 @@ impl Plan {
     /// [`CaseError`] with everything that is wrong.
     pub fn parse(text: &str, file: &Path, overrides: &[String]) -> Result<Self, CaseError> {
         let (table, log) = overridden(text, file, overrides, &[])?;
-        let log = RefCell::new(log);
-        let draft = Self::from_section(&Section::root(&table, &STUDY, &log), file);
-        let mut log = log.into_inner();
-        STUDY.add_faults(&table, &mut log);
-        let problems = log.problems;
-        draft.filter(|_| problems.is_empty()).ok_or(CaseError { file: file.into(), problems })
+        read_whole((&table, log), &STUDY, file, |root| Self::from_section(root, file)).map(|(plan, _)| plan)
     }
 
     /// None if a value is missing or bad; the log knows why.
