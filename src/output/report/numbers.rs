@@ -1,7 +1,5 @@
 //! Tables of what the solution says.
 
-use std::collections::BTreeMap;
-
 use serde_json::Value;
 
 use super::page::{ReportPage, TableColumn, count, exact, long_table, number, table_of, trust_word};
@@ -205,8 +203,7 @@ pub fn effort(page: &ReportPage) -> String {
 
 /// Who has made this result, of what and where, as far as the summary tells.
 pub fn provenance(page: &ReportPage) -> String {
-    let whole = serde_json::to_value(page.summary).unwrap_or_default();
-    let Some(Value::Object(told)) = whole.get("provenance") else { return String::new() };
+    let told = serde_json::to_value(&page.summary.provenance).unwrap_or_default();
     let words = |value: &Value| match value {
         Value::Null => None,
         Value::String(text) => (!text.is_empty()).then(|| text.clone()),
@@ -215,7 +212,6 @@ pub fn provenance(page: &ReportPage) -> String {
         }
         other => Some(other.to_string()),
     };
-    let rows: BTreeMap<&String, String> = told.iter().filter_map(|(key, value)| Some((key, words(value)?))).collect();
-    let rows: Vec<Vec<String>> = rows.into_iter().map(|(key, value)| vec![key.replace('_', " "), value]).collect();
-    table(&["", ""], &rows)
+    let row = |(key, value): (&String, &Value)| Some(vec![key.replace('_', " "), words(value)?]);
+    table(&["", ""], &told.as_object().into_iter().flatten().filter_map(row).collect::<Vec<_>>())
 }
