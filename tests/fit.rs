@@ -264,3 +264,33 @@ fn a_fit_goes_around_whole_rings() {
         assert!(error < most, "P{order}, {space}: {error}");
     }
 }
+
+/// A tooth with a sharp corner on a flank that rises by 3 degrees, on a half-plane in effect: pressure on it has no part along it, so that
+/// the wall beside the tooth carries tan 3 of the load. A curve half-way has half of that.
+#[test]
+fn a_corner_on_an_oblique_flank_presses_along_the_normal_of_the_flank_or_tells() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let slope = 3f64.to_radians().tan();
+    let top = |u: f64| slope * (6.0 * u - 3.0);
+    let block = grid(12, 8, 0, |u, v| [6.0 * u - 3.0, -3.0 + v * (3.0 + top(u))]);
+    let tooth = grid(4, 6, 0, |u, v| [2.0 * u - 2.0, 3.0 * v]);
+    let bodies = vec![("block", block, ["floor", "", "block.flank", ""]), ("tooth", tooth, ["tooth.tip", "", "top", "back"])];
+    let case = "mesh = { file = \"mesh.msh\", refine = 3 }\nbody.block = { young = 2000, poisson = 0.3 }\n\
+                body.tooth = { young = 2000, poisson = 0.3 }\nsupport.floor = { on = \"floor\", ux = 0.0, uy = 0.0 }\n\
+                support.back = { on = \"back\", ux = 0.0 }\nload.top = { on = \"top\", pressure = 50 }\n\
+                contact.seam = { between = [\"tooth.tip\", \"block.flank\"] }\n";
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), case);
+    for (ranks, curve, configuration, trust, tolerance) in [
+        (1, "fit", "reference", false, f64::INFINITY),
+        (2, "fit", "reference", false, f64::INFINITY),
+        (2, "block.flank", "reference", true, 1e-6),
+        (1, "fit", "deformed", true, 0.05),
+    ] {
+        let run = Run::file(&file).ranks(ranks).set("contact.seam.curve", format!("\"{curve}\""));
+        let ended = run.set("contact.seam.configuration", format!("\"{configuration}\"")).converged();
+        let found = ended.number("/support/back/reaction/0") / (100.0 * slope);
+        assert!((found - 1.0).abs() < tolerance, "{curve}, {configuration}: {found} of the true one");
+        assert_eq!(ended.value("/contact/seam/trust_force"), trust, "{curve}, {configuration}: {}", ended.said());
+        assert_eq!(ended.errors.contains("curve = \"BODY.SIDE\""), !trust, "{}", ended.errors);
+    }
+}

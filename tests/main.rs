@@ -50,6 +50,7 @@ mod scaling;
 mod schema;
 mod sets;
 mod several;
+mod shapes;
 mod solver;
 mod stability;
 mod steps;

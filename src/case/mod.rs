@@ -35,7 +35,7 @@ pub use asked::output::{Output, UnitNames};
 pub use asked::solver::Solver;
 pub use asked::steps::LoadFactor;
 pub use bodies::geometry::Geometry;
-pub use bodies::mesh::{Grade, MeshChoice};
+pub use bodies::mesh::{Grade, MOST_REFINE, MeshChoice};
 pub use contact::sides::Union;
 pub(crate) use file::error::listed;
 pub use file::error::{CaseError, Problem};

@@ -54,6 +54,12 @@ impl Scene {
         Ok(Self { mesh: Rc::new(mesh), partition, means, ..self.clone() })
     }
 
+    /// The same scene with all of its mesh on this rank.
+    pub fn on_one_rank(&self) -> Self {
+        let ranks = vec![0; self.mesh.triangles.len()];
+        Self { partition: Rc::new(Partition::new(&self.mesh, &ranks, 1)), ..self.clone() }
+    }
+
     /// The rigid tool that a body is, if it is one.
     pub fn tool(&self, body: usize) -> Option<&RigidSet> {
         let name = &self.mesh.bodies[body];

@@ -51,7 +51,7 @@ impl MacroMesh {
 
     /// Edges in the order and direction of the boundary (body on the left), cut at corners and gaps, and where the
     /// shape changes.
-    fn chains(&self, edges: &[u32]) -> Vec<Vec<u32>> {
+    pub(super) fn chains(&self, edges: &[u32]) -> Vec<Vec<u32>> {
         let ends: Vec<[u32; 2]> = edges.iter().map(|&edge| self.directed(edge)).collect();
         let rows = rows(&ends, |a, b| edges[a] != edges[b] && self.goes_on(edges[a], edges[b]));
         rows.into_iter().map(|row| row.into_iter().map(|at| edges[at]).collect()).collect()

@@ -8,6 +8,7 @@ use super::motion_error::{MotionError, growth_by_gap, motion_errors};
 use super::overlaps::{missing_beyond, missing_force, unresolved_force};
 use super::penetrations::penetrations;
 use super::probe::{Probed, Probing, probe};
+use super::shape_error::shape_error;
 use super::stress::{NodalStress, nodal_stress};
 use super::traces::{TracePoint, trace_points};
 use crate::contact::Penetration;
@@ -89,6 +90,11 @@ impl<'a> Evaluation<'a> {
     /// Corners of the bodies of a contact within `zones`: the arcs that press.
     pub fn corners(&self, contact: usize, zones: &[[f64; 2]]) -> Corners {
         corners(&self.problem.scene, &self.problem.contacts[contact], zones)
+    }
+
+    /// Estimated relative error of λ by what the nodes of undeclared boundaries leave unknown of their shape.
+    pub fn shape_error(&self, contact: usize, points: &[TracePoint]) -> Option<f64> {
+        shape_error(&self.problem.contacts[contact], points)
     }
 
     /// Force that is missing because bodies overlap where nothing presses, relative to the force found; without a force, the

@@ -30,6 +30,7 @@ mod node_sums;
 mod overlaps;
 mod penetrations;
 mod probe;
+mod shape_error;
 mod stress;
 mod stress_peaks;
 mod traces;

@@ -52,6 +52,8 @@ pub struct MotionError {
     pub slip_error: Option<f64>,
     /// The part of it that comes from turning; for all contacts.
     pub rotation_error: f64,
+    /// Angle between Γ_C and the side on which a corner of the other one presses (radians): the direction of the force is off by it.
+    pub slant: f64,
 }
 
 /// For each contact what motions spoil; nothing where no body is strained. `energy` is the strain energy of each body, `turns` the
@@ -125,6 +127,7 @@ fn one(
         slip: sides.map(|_| found.slip / found.length),
         slip_error: sides.map(|_| error(&found.whole)),
         rotation_error: error(&found.turning),
+        slant: found.slant,
     })
 }
 

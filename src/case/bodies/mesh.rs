@@ -16,6 +16,9 @@ use crate::element::Order;
 use std::path::{Path, PathBuf};
 use toml::Value;
 
+/// Refinements of a mesh at most: twelve make 17 million triangles of one.
+pub const MOST_REFINE: usize = 12;
+
 declare! {
     static MESH = table("mesh");
     /// A Gmsh file, 2.2 or 4.1, ASCII or binary, relative to the case; see [meshes.md](meshes.md). Physical surfaces are bodies,
@@ -27,7 +30,7 @@ declare! {
     /// How often each triangle is quartered. A run that would take more memory than is left (of the machine, of control groups,
     /// of `ulimit -v` and `-d`) ends with exit code 2 before it begins, and names the refinement that fits; `mezha check` tells
     /// the memory that a run takes, and warns if this machine has less.
-    const REFINE: usize = key("refine", whole(0, 12)).or("0")
+    const REFINE: usize = key("refine", whole(0, MOST_REFINE as i64)).or("0")
         .refused("must be a whole number from 0 to 12; each one quarters every triangle");
     const GRADED: toml::Table = key("grade", inner(&GRADE));
 }

@@ -17,6 +17,15 @@ impl Spline {
         Self::with_curvatures(knots, points, &curvature, closed)
     }
 
+    /// The spline through every other point between its spans; nothing if these are too few.
+    pub fn coarser(&self) -> Option<Self> {
+        let last = self.knots.len() - 1;
+        let knots: Vec<f64> = (0..last).step_by(2).chain([last]).map(|k| self.knots[k]).collect();
+        let points: Vec<Point> = knots.iter().map(|knot| self.point(*knot)).collect();
+        let least = if self.closed { 4 } else { 2 };
+        (points.len() >= least && points.len() <= last).then(|| Self::through(knots, &points, self.closed))
+    }
+
     /// The spline through points at these parameters with these second derivatives there.
     fn with_curvatures(knots: Vec<f64>, points: &[Point], curvature: &[Point], closed: bool) -> Self {
         let span = |k: usize| {

@@ -15,7 +15,6 @@
 //! | 18 | 5.3 %, 6.6 %, 7.9 % | 0.1 %, 0.1 %, 0.1 % | |
 
 use crate::geometry::{Curve, Point};
-use crate::mesh::chain::Stretch;
 use crate::mesh::curve_piece::CurvePiece;
 use crate::mesh::macro_mesh::MacroMesh;
 use std::sync::Arc;
@@ -61,11 +60,11 @@ impl MacroMesh {
 
     /// The corners within the smooth stretches of a boundary that is not bent: all of its chords have them.
     pub fn corners_left(&self, boundary: &str) -> Vec<Corner> {
-        let edges = self.edges_of(boundary);
-        let unbent = |stretch: &Stretch| self.edges[stretch.edges[0] as usize].shape.is_none() && !stretch.curve.is_line();
-        let all = self.stretches(edges).into_iter().filter(unbent).map(|stretch| self.points_with_turns(&stretch.edges));
-        all.flat_map(|points| points.windows(3).map(|three| Corner { place: three[1], angle: turn(three) }).collect::<Vec<_>>())
-            .collect()
+        let chains = self.chains(self.edges_of(boundary)).into_iter();
+        let unbent = chains.filter(|chain| self.edges[chain[0] as usize].shape.is_none());
+        let corner = |three: &[Point]| Corner { place: three[1], angle: turn(three) };
+        let all = unbent.flat_map(|chain| self.points_with_turns(&chain).windows(3).map(corner).collect::<Vec<_>>());
+        all.filter(|corner| corner.angle > ROUNDED).collect()
     }
 
     /// Vertices of a chain of edges, of a closed one with the second again behind the last, so that all of its turns are between

@@ -53,10 +53,14 @@ pub struct ContactSummary {
     pub slip_error: Option<f64>,
     /// The same by their turning alone, in all contacts; where nothing presses, the growth of what turns by the smallest gap.
     pub rotation_error: Option<f64>,
+    /// Angle between the contact boundary and the side on which a corner of the other one presses (radians).
+    pub slant: Option<f64>,
     /// Sharpest corner of a body within what presses, in degrees; of fitted curves only.
     pub corner_angle: Option<f64>,
     /// Estimated relative error of λ by that corner.
     pub corner_error: Option<f64>,
+    /// Estimated relative error of λ by what the nodes of boundaries without a declared shape leave unknown of it.
+    pub shape_error: Option<f64>,
     /// Intervals of arc length that press, each with what is estimated of it.
     pub zones: Vec<ZoneSummary>,
     /// Force that is missing because the bodies overlap where no segment presses, relative to `force`; where nothing presses,
@@ -100,15 +104,17 @@ impl ContactSummary {
         self.singular_zones().any(|zone| zone.singular_at_end == Some(true))
     }
 
-    /// The points at which materials meet where it does so.
+    /// The points at which materials meet, or a side has a corner, where it does so.
     pub fn singular_places(&self) -> Vec<Point> {
         self.singular_zones().filter_map(|zone| zone.singular_at.map(Into::into)).collect()
     }
 
-    /// Where it does so, in words: towards an end, at a point at which materials meet, or both.
+    /// Where it does so, in words: towards an end, at such a point, or both.
     pub fn singular_words(&self) -> Option<String> {
         let end = self.is_singular_at_end().then(|| "towards an end".to_owned());
-        let joint = |place: &Point| format!("at {}, where an edge between two materials ends", Coordinates(*place));
+        let joint = |place: &Point| {
+            format!("at {}, where an edge between two materials ends or a side has a corner", Coordinates(*place))
+        };
         let words: Vec<String> = end.into_iter().chain(self.singular_places().first().map(joint)).collect();
         (!words.is_empty()).then(|| words.join(" and "))
     }
@@ -150,11 +156,11 @@ pub struct ZoneSummary {
     pub peak: Option<f64>,
     /// Whether its largest pressure lies beside an end of the contact boundary, in the tenth that `whole` leaves out.
     pub peak_at_end: Option<bool>,
-    /// Whether λ grows without bound towards an end of the contact boundary, or where materials meet, as far as can be seen.
+    /// Whether λ grows without bound towards an end of the contact boundary, where materials meet, or at a corner of a side, as far as can be seen.
     pub singular: Option<bool>,
     /// Whether it does so towards an end.
     pub singular_at_end: Option<bool>,
-    /// Where materials meet and λ grows without bound.
+    /// Where materials meet, or a side has a corner, and λ grows without bound.
     pub singular_at: Option<[f64; 2]>,
     /// λ at an end of the contact boundary beyond which both bodies go on smoothly and no other contact takes over, by its largest
     /// pressure; 0 where there is no such end.

@@ -13,7 +13,7 @@ use crate::discretisation::{
     not_held_if_closed, spaces,
 };
 use crate::geometry::Point;
-use crate::mesh::{EdgeNode, Level, Numbering, Partition};
+use crate::mesh::{EdgeNode, Level, Numbering};
 use crate::procedure::one_mesh::wide_contact::{
     Fineness, asked, drawn_contacts, least_force, narrowed, wide_contacts, with_touch,
 };
@@ -21,7 +21,6 @@ use crate::procedure::sequence::LoadedPlace;
 use crate::procedure::settings::Procedure;
 use crate::programme::{FoundByProgramme, Prediction, Predictor};
 use crate::system::Start;
-use std::rc::Rc;
 
 /// Operations of a programme that are less than a few sets on the same mesh cost: some tenths of a second.
 pub const MOST_WORK: f64 = 3e8;
@@ -52,7 +51,7 @@ impl Procedure<'_> {
         {
             return self.begun_without_programme(scene, spaces, &drawn);
         }
-        let whole = on_one_rank(&scene);
+        let whole = scene.on_one_rank();
         let numbering = Numbering::new(spaces[spaces.len() - 1].numbering.level, &whole.partition);
         let wide = wide_contacts(&whole, &numbering, Fineness::Graded)?;
         let free = |scene: Scene, words: String| Ok(Begun::Free(Box::new(Discretisation::new(scene, self.session)?), words));
@@ -122,7 +121,7 @@ impl Procedure<'_> {
     /// # Errors
     /// As of [`Procedure::begun`].
     pub(crate) fn loaded_places(&self, scene: &Scene) -> Result<Option<Vec<LoadedPlace>>, SystemError> {
-        let whole = on_one_rank(scene);
+        let whole = scene.on_one_rank();
         let numbering = finest_numbering(&whole)?;
         let wide = wide_contacts(&whole, &numbering, Fineness::Graded)?;
         let drawn = drawn_contacts(&wide);
@@ -180,12 +179,6 @@ pub fn work_of_programme(scene: &Scene, level: Level, contacts: &[Contact]) -> f
 /// them. Where supports hold bodies, the set of the programme is enough to begin with.
 fn is_assembly(scene: &Scene) -> bool {
     !scene.means.is_empty()
-}
-
-/// The scene with all of its mesh on this rank.
-fn on_one_rank(scene: &Scene) -> Scene {
-    let ranks = vec![0; scene.mesh.triangles.len()];
-    Scene { partition: Rc::new(Partition::new(&scene.mesh, &ranks, 1)), ..scene.clone() }
 }
 
 /// What presses: the pressure is worth more penetration than there is gap.

@@ -21,6 +21,11 @@ use std::rc::Rc;
 /// Relative residual of solves on boundaries that are still on their way.
 const ON_THE_WAY: f64 = 1e-5;
 
+/// Change of the displacement, relative to its norm, from which on a boundary that still moves is solved for to the tolerance: ten times
+/// what solves on the way leave. A pin in three leaves finds no rest on four of nine meshes without this rule,
+/// on one with a tenth of this, and on none with it.
+const STILL: f64 = 10.0 * ON_THE_WAY;
+
 /// Share of its length by which a boundary moves when it is nearly there.
 const NEARLY: f64 = 1e-2;
 
@@ -292,7 +297,8 @@ impl OneMesh<'_> {
         if self.is_last {
             observer.observe(Event::Placed(&step));
         }
-        let is_near = step.moved.is_some_and(|way| way < NEARLY);
+        // A contact may be so small beside all that moves that a solve on the way leaves it as it was, and its ends stray.
+        let is_near = step.moved.is_some_and(|way| way < NEARLY) || step.du.is_some_and(|du| du < STILL);
         history.boundaries.push(step);
         Ok(Some(match next {
             NextBoundary::Stands(way) => {

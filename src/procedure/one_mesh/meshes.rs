@@ -198,6 +198,7 @@ impl Procedure<'_> {
         let sum = |own: f64| self.session.sum([own])[0];
         let estimate = Estimate::new(&differences, shares_left, problem.scene.order, found.solution.residual, sum);
         let OnMesh { solution, ending, solver, history } = found;
+        let ending = self.with_cause(ending, &problem.scene);
         let MeshHistory { passes, boundaries, ascended, preconditioning } = history;
         Ok(Solved {
             problem,
@@ -214,6 +215,15 @@ impl Procedure<'_> {
             before: coarse.filter(|_| self.accuracy.is_some()),
             adaptation: None,
         })
+    }
+
+    /// An ending that names the loads that drive a body off all its contacts, where they are why the contact conditions are not met.
+    fn with_cause(&self, ending: Ending, scene: &Scene) -> Ending {
+        let Ending::NotConverged(Failure::ConditionsViolated(_)) = &ending else { return ending };
+        match Self::driven_off(&scene.on_one_rank(), self.accuracy, 1) {
+            Some(words) => Ending::NotConverged(Failure::NotHeld(words)),
+            None => ending,
+        }
     }
 
     fn say(&self, coarser: &mut Coarser) {

@@ -88,14 +88,22 @@ pub(crate) struct LoadedPlace {
 }
 
 impl WantedEdge<'_> {
-    /// Macro triangles with an edge on the contact at the place that is too long.
+    /// Macro triangles with an edge on the contact that is too long, beside the place of either side that is nearest to the force: sides
+    /// that are drawn in each other are apart by more than it presses on.
     fn too_long(&self, mesh: &MacroMesh) -> Vec<u32> {
-        let is_near = |edge: u32| {
-            let ends = mesh.edge_ends(edge);
-            let bent = (mesh.edge_position(edge, 0.5) - 0.5 * (ends[0] + ends[1])).norm();
-            distance(mesh, self.place, edge) <= self.half + bent
-        };
-        let long = mesh.edges_on(self.between).filter(|&edge| mesh.edge_length(edge) > self.edge && is_near(edge));
-        long.filter_map(|edge| mesh.edges[edge as usize].triangles[0]).collect()
+        let mut all = Vec::new();
+        for edges in self.between.each_ref().map(|name| mesh.edges_of(name)) {
+            let feet = edges.iter().map(|&edge| mesh.foot_on_chord(edge, self.place));
+            let away = |foot: &Point| (foot - self.place).norm_squared();
+            let Some(foot) = feet.min_by(|a, b| away(a).total_cmp(&away(b))) else { continue };
+            let is_near = |edge: u32| {
+                let ends = mesh.edge_ends(edge);
+                let bent = (mesh.edge_position(edge, 0.5) - 0.5 * (ends[0] + ends[1])).norm();
+                distance(mesh, foot, edge) <= self.half + bent
+            };
+            let long = edges.iter().copied().filter(|&edge| mesh.edge_length(edge) > self.edge && is_near(edge));
+            all.extend(long.filter_map(|edge| mesh.edges[edge as usize].triangles[0]));
+        }
+        all
     }
 }

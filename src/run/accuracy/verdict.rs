@@ -59,7 +59,7 @@ fn limits(Adaptation { accuracy, end, refusal, .. }: &Adaptation) -> String {
         SequenceEnd::Stuck => "; an estimate no longer falls, or cannot be had",
         SequenceEnd::Meshes => "; there are no more meshes than that",
         SequenceEnd::Unbounded => {
-            "; a largest λ that is asked for grows without bound, towards an end of its contact or where materials meet: it has no value, ask for pressure or force instead"
+            "; a largest λ that is asked for grows without bound, towards an end of its contact, where materials meet, or at a corner of a side: it has no value, ask for pressure or force instead"
         }
         _ => "",
     };

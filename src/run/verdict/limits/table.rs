@@ -121,6 +121,14 @@ pub static CORNERS: Limit = most((0.04, short,
     "a body has corners within the contact",
     "\"{first}\" or \"{second}\" has corners of up to {angle} degrees within the contact, which change λ by about {value}"));
 
+/// `shape_error`: what the nodes of a boundary without a declared shape leave unknown of it, by what that does to λ. On Hertz contacts with
+/// coordinates of six digits .25 and .044 where λ was up to .29 and .065 off, 1e-9 with sixteen; on a rounded punch whose flat and arcs
+/// are one curve .5, and .034 with chords a fifth as long, where the largest λ was .13 and .012 off.
+pub static SHAPE: Limit = most((0.04, short,
+    Words("give the shape by a [geometry]; write the mesh with all digits of its coordinates; give lines and arcs that go on as each other a name and a contact each, or finer edges where they meet"),
+    "the nodes tell too little of a boundary's shape",
+    "the nodes of \"{first}\" or \"{second}\" scatter, or the curvature jumps between them: λ is wrong by about {value} (relative), at most {limit} wanted"));
+
 /// `balance.bodies`: all forces on a body, as a share of their magnitudes; and the share beyond which there is no result.
 pub static BODY_BALANCE: Limit = most((0.01, two_digits, Words("take a smaller solver.tolerance, or correct what holds the bodies"),
     "the forces on a body are out of balance", "the forces on a body are out of balance by {value}, at most {bound} wanted"));
@@ -161,6 +169,13 @@ pub static LOST_AT_ENDS: Limit = most((0.02, two_digits, Words(AFTER_SLIDING), S
 /// elsewhere.
 pub static SLIP_AT_ENDS: Limit = most((0.1, two_digits, Words(AFTER_SLIDING), SLIDING_CAUSE,
     "one body slides along the other by {value} times the length in contact, at most {bound} times wanted: the pressure lies elsewhere"));
+
+/// `slant`: angle between Γ_C and the side on which a corner of the other one presses: the force acts along the normal of that side. With a
+/// curve half-way between sides at 3 degrees the part along it was 2.6 instead of 5.2 (5.1 on deformed bodies).
+pub static SLANT: Limit = most((0.01, two_digits,
+    Words("take as curve the side that goes on beyond the corner, as in curve = \"BODY.SIDE\", or curve = \"fit\" with configuration = \"deformed\""),
+    "a corner presses askew to the contact boundary",
+    "a corner presses on a side that lies at an angle of {value} to the contact boundary, at most {bound} wanted: the direction of the force is off by that"));
 
 const TURNING_CAUSE: &str = "the bodies turn too far";
 const TURN_LESS: &str = "the theory is that of small rotations: draw the bodies as they lie after turning, and turn them by less";

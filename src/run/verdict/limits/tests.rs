@@ -5,7 +5,7 @@ use crate::accuracy::NARROWEST;
 use crate::procedure::MOVES;
 
 /// Every row of the table, with its figure.
-const ROWS: [(&str, &Limit); 27] = [
+const ROWS: [(&str, &Limit); 29] = [
     ("inf_sup", &INF_SUP),
     ("oscillation", &OSCILLATION),
     ("zones[].edges", &EDGES),
@@ -22,12 +22,14 @@ const ROWS: [(&str, &Limit); 27] = [
     ("estimate.energy", &ENERGY),
     ("estimate.NAME.force", &FORCE),
     ("corner_error", &CORNERS),
+    ("shape_error", &SHAPE),
     ("balance.bodies", &BODY_BALANCE),
     ("balance.force", &SIDE_BALANCE),
     ("solver.residual", &RESIDUAL),
     ("slip_error", &SLIP),
     ("lost_at_ends", &LOST_AT_ENDS),
     ("slip_at_ends", &SLIP_AT_ENDS),
+    ("slant", &SLANT),
     ("rotation_error", &TURNING),
     ("rotation_error", &GROWTH),
     ("rotation_max", &ROTATION),

@@ -10,7 +10,7 @@ use crate::contact::{Pair, Quadrature};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
 use crate::run::verdict::limits::{
-    CORNERS, Doubt, EDGES, ENERGY, FORCE, INF_SUP, OSCILLATION, Remedy, TRUSTED_FORCE, TRUSTED_FORCE_ON_FEW,
+    CORNERS, Doubt, EDGES, ENERGY, FORCE, INF_SUP, OSCILLATION, Remedy, SHAPE, TRUSTED_FORCE, TRUSTED_FORCE_ON_FEW,
 };
 use crate::run::verdict::no_result::{balance_doubts, is_strained};
 use crate::run::words::short;
@@ -47,7 +47,7 @@ pub fn verdict(summary: &Summary, contact: &ContactSummary, mended: Mended, conv
     let beyond = doubts_beyond(summary, contact, case, carries);
     let trust_force = trust_force.map(|trust| trust && beyond.is_empty());
     doubts.extend(beyond);
-    doubts.extend(corner_doubt(contact, &pair.between).filter(|_| carries));
+    doubts.extend(shape_doubts(contact, &pair.between).filter(|_| carries));
     let unknown = uncut(pair).or_else(|| unknown_of(contact, trust_force, mended.by(Remedy::MoreSegments)));
     let unknown = unknown.filter(|_| carries);
     let trust = if doubts.is_empty() { unknown.is_none().then_some(true) } else { Some(false) };
@@ -94,8 +94,10 @@ fn uncut(pair: &Pair) -> Option<Objection> {
     (pair.quadrature != Quadrature::Cut).then(|| Objection { cause, words: cause.into(), remedy: Some(CUT.into()) })
 }
 
-/// What tells that bodies press with corners that the smooth contact boundary has not.
-pub fn corner_doubt(contact: &ContactSummary, [first, second]: &[String; 2]) -> Option<Doubt> {
+/// What tells that bodies press with corners that the smooth contact boundary has not, or in shapes that their nodes do not tell.
+pub fn shape_doubts(contact: &ContactSummary, [first, second]: &[String; 2]) -> impl Iterator<Item = Doubt> {
     let angle = format!("{:.0}", contact.corner_angle.unwrap_or(f64::NAN));
-    CORNERS.judge(contact.corner_error, &[("first", first), ("second", second), ("angle", &angle)])
+    let named: [(&str, &str); 3] = [("first", first), ("second", second), ("angle", &angle)];
+    let figures = [(&CORNERS, contact.corner_error), (&SHAPE, contact.shape_error)];
+    figures.map(|(limit, value)| limit.judge(value, &named)).into_iter().flatten()
 }

@@ -1,6 +1,6 @@
 //! What mends a pressure that is too inexact, in the terms of its case.
 
-use crate::case::Case;
+use crate::case::{Case, MOST_REFINE};
 use crate::contact::{Pair, Quadrature, SegmentRule};
 use crate::element::Order;
 use crate::run::verdict::limits::{P1_STIFF, Remedy};
@@ -46,7 +46,8 @@ pub fn finer_mesh(case: &Case, times: usize, goal: &str) -> String {
     } else {
         format!("as mesh.file the adapted.msh of a run with --set steps={{}} --set accuracy.{goal}=1e-2")
     };
-    format!("take mesh.refine = {}, or {adapted}", case.mesh.refine + times)
+    let refine = case.mesh.refine + times;
+    if refine > MOST_REFINE { format!("take {adapted}") } else { format!("take mesh.refine = {refine}, or {adapted}") }
 }
 
 /// What mends a space too rich for the displacements; P1 has locked before its multipliers are too many.

@@ -103,7 +103,7 @@ fn sliding_is_doubted_where_a_body_ends() {
 #[test]
 fn corners_are_doubted_by_what_they_do() {
     let pair = |error| ContactSummary { corner_angle: Some(11.25), corner_error: Some(error), ..ContactSummary::default() };
-    let told = |error| corner_doubt(&pair(error), &["a", "b"].map(String::from)).map(|doubt| doubt.figure);
+    let told = |error| shape_doubts(&pair(error), &["a", "b"].map(String::from)).map(|doubt| doubt.figure).next();
     assert_eq!(told(0.03), None);
     assert!(told(0.07).is_some_and(|words| words.contains("\"a\" or \"b\" has corners of up to 11 degrees")));
 }
@@ -254,6 +254,10 @@ fn all_advice_on_a_mesh_names_the_same_refinement() {
     let (.., words) = judged(true, narrow, &[]);
     let named = words.matches("mesh.refine = ").count();
     assert!(named > 0 && words.matches("mesh.refine = 6,").count() == named, "{words}");
+    // No case can have sixteen.
+    let narrower = |summary: &mut Summary| summary.contact.get_mut("seam").expect("it is there").zones[0].edges = Some(1e-4);
+    let (.., words) = judged(true, narrower, &[]);
+    assert!(!words.contains(FINER) && words.contains("take a mesh that is adapted"), "{words}");
 }
 
 /// With an accuracy the mesh and its segments are the program's own.
@@ -325,7 +329,7 @@ fn a_largest_pressure_that_means_nothing_is_told_in_the_verdict() {
     assert_eq!(verdict(false, None), (Some(true), "trusted".into()));
     let words = "trusted, but for the largest value: λ grows without bound";
     assert_eq!(verdict(true, None), (Some(true), format!("{words} towards an end")));
-    let joint = "at (1, 0.5), where an edge between two materials ends";
+    let joint = "at (1, 0.5), where an edge between two materials ends or a side has a corner";
     assert_eq!(verdict(false, Some([1.0, 0.5])), (Some(true), format!("{words} {joint}")));
     assert_eq!(verdict(true, Some([1.0, 0.5])), (Some(true), format!("{words} towards an end and {joint}")));
 }

@@ -1,0 +1,70 @@
+//! Shapes that a mesh tells badly: coordinates of few digits, corners and jumps of curvature within one contact, corners that press on
+//! oblique sides. What no finer mesh would show is told.
+
+use crate::support::Run;
+use crate::support::mesh::{Mesh, grid, write_scene};
+use std::f64::consts::PI;
+
+/// A body whose lower boundary has a height above the block as a function of x, pressed on it by 20 per thickness; the latter is 4 wide.
+fn pressed(height: impl Fn(f64) -> f64, round: impl Fn(f64) -> f64) -> Mesh {
+    let block = grid(60, 12, 0, |u, v| [4.0 * u - 2.0, (v - 1.0) * (2.0 - v)]);
+    let body = grid(52, 10, 0, |u, v| {
+        let x = 2.0 * u - 1.0;
+        [x, (1.0 - v) * height(x) + v]
+    });
+    let bodies = vec![("block", block, ["base", "", "block.top", ""]), ("body", body, ["body.bottom", "", "body.top", ""])];
+    Mesh { bodies }.map(|x| x.map(&round))
+}
+
+const CASE: &str = r#"
+mesh = { file = "mesh.msh", refine = 1 }
+body.block = { young = 1000.0, poisson = 0.3 }
+body.body = { young = 1000.0, poisson = 0.3 }
+support.base = { on = "base", ux = 0.0, uy = 0.0 }
+load.top = { on = "body.top", rigid = true, force = [0.0, -5.0], ux = 0.0 }
+contact.seam = { between = ["block.top", "body.bottom"] }
+"#;
+
+/// Half a circle of radius 2, with coordinates of sixteen digits and of three: the spline through these has curvatures of its own.
+#[test]
+fn nodes_that_scatter_make_no_pressure_that_is_trusted() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let circle = |x: f64| 2.0 - (4.0 - x * x).sqrt();
+    let found = |round: fn(f64) -> f64, ranks: usize| {
+        let file = write_scene(folder.path(), &pressed(circle, round).text(), CASE);
+        let ended = Run::file(&file).ranks(ranks).converged();
+        let [error, peak] = ["shape_error", "pressure_max"].map(|key| ended.number(&format!("/contact/seam/{key}")));
+        (error, peak, ended.value("/contact/seam/trust"), ended.errors)
+    };
+    let compliance = 2.0 * (1.0 - 0.09) / 1000.0;
+    let hertz = (5.0 / (PI * 2.0 * compliance)).sqrt();
+    let (error, peak, trust, _) = found(|x| x, 1);
+    assert!(error < 1e-3 && (peak / hertz - 1.0).abs() < 0.02 && trust == true, "{error}, {peak} for {hertz}, {trust}");
+    for ranks in [1, 2] {
+        let (error, peak, trust, words) = found(|x| (1e3 * x).round() / 1e3, ranks);
+        assert!(error > 0.04 && (peak / hertz - 1.0).abs() > 0.03, "{error}, {peak} for {hertz}");
+        assert_eq!(trust, false);
+        assert!(words.contains("\"body.bottom\" scatter"), "{words}");
+    }
+}
+
+/// A roof of two planes at 1.2 degrees that is one side: λ goes like a logarithm at its ridge, and has no largest value.
+#[test]
+fn a_corner_within_a_contact_has_no_largest_pressure() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &pressed(|x| 0.02 * x.abs(), |x| x).text(), CASE);
+    let ended = Run::file(&file).ranks(2).set("accuracy.peak", 1e-2).ended();
+    assert_eq!(ended.code, Some(3), "{}", ended.said());
+    assert!(ended.said().contains("or at a corner of a side: it has no value"), "{}", ended.said());
+}
+
+/// A flat that goes over into arcs, as one side: the spline through its nodes overshoots where the curvature jumps.
+#[test]
+fn a_curvature_that_jumps_within_a_side_is_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let height = |x: f64| 1.0 - (1.0 - (x.abs() - 0.4).max(0.0).powi(2)).sqrt();
+    let file = write_scene(folder.path(), &pressed(height, |x| x).text(), CASE);
+    let ended = Run::file(&file).ranks(2).converged();
+    assert_eq!(ended.value("/contact/seam/trust"), false, "{}", ended.said());
+    assert!(ended.errors.contains("or the curvature jumps between them"), "{}", ended.errors);
+}
