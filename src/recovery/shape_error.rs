@@ -12,6 +12,9 @@ use crate::geometry::{Curve, Point};
 /// The slopes of a spline through nodes of a smooth boundary are exact to the third power of their distance.
 const ORDER: f64 = 8.0;
 
+/// Width of a contact boundary at an end by that at its middle, on the axis of revolution.
+const ON_AXIS: f64 = 1e-9;
+
 /// A side that is a spline through nodes, with those through fewer of them.
 struct Coarser<'c> {
     all: &'c Curve,
@@ -26,8 +29,10 @@ pub fn shape_error(contact: &Contact, points: &[TracePoint]) -> Option<f64> {
     let pressing: Vec<&TracePoint> = points.iter().filter(|point| point.lambda > 0.0).collect();
     let force: f64 = pressing.iter().map(|point| point.lambda).sum();
     let mean = pressing.iter().map(|point| point.lambda * point.lambda).sum::<f64>() / force;
-    // With both ends free a tilt moves what presses, and no more.
-    let is_free = contact.ends_with_a_body() == [false; 2];
+    // With both ends free a tilt moves what presses, and no more; at an axis, or at a line of symmetry, it is a ridge or a groove.
+    let (boundary, middle) = (&contact.boundary, contact.boundary.parameter_at(0.5 * contact.boundary.length()));
+    let is_on_axis = |end: f64| boundary.width(end) < ON_AXIS * boundary.width(middle);
+    let is_free = contact.ends_with_a_body() == [false; 2] && !boundary.ends().into_iter().any(is_on_axis);
     let slopes = shapes.each_ref().map(|curves| slope_error(curves, &pressing, is_free));
     (force > 0.0 && contact.compliance > 0.0).then(|| slopes[0].hypot(slopes[1]) / (contact.compliance * mean))
 }
