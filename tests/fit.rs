@@ -294,3 +294,40 @@ fn a_corner_on_an_oblique_flank_presses_along_the_normal_of_the_flank_or_tells()
         assert_eq!(ended.errors.contains("curve = \"BODY.SIDE\""), !trust, "{}", ended.errors);
     }
 }
+
+/// A pin that three leaves bend, with clearance: what presses is so small beside what moves that a solve on the way may leave all as it
+/// was, while the ends go on.
+#[test]
+fn ends_of_small_contacts_come_to_rest() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (cells, refine, ranks) in [(2, 2, 1), (2, 3, 2), (3, 2, 2), (4, 2, 1)] {
+        let leaf = |x: f64, width: f64, y: f64| {
+            let columns = (width * cells as f64).round() as usize;
+            grid(columns, 3 * cells, 0, move |u, v| [x + width * u, y + 3.0 * v])
+        };
+        let pin = grid(12 * cells, 2 * cells, 0, |u, v| [12.0 * u - 6.0, 2.0 * v - 1.0]);
+        let bodies = vec![
+            ("pin", pin, ["pin.bottom", "", "pin.top", ""]),
+            ("left", leaf(-5.0, 2.0, 1.02), ["left.bore", "", "fixed", ""]),
+            ("right", leaf(3.0, 2.0, 1.02), ["right.bore", "", "fixed", ""]),
+            ("middle", leaf(-2.2, 4.4, -4.02), ["pulled", "", "middle.bore", ""]),
+        ];
+        let mut case = String::from("mesh.file = \"mesh.msh\"\nsupport.fixed = { on = \"fixed\", ux = 0.0, uy = 0.0 }\n");
+        for name in ["pin", "left", "right", "middle"] {
+            case += &format!("body.{name} = {{ young = 200000.0, poisson = 0.3 }}\n");
+        }
+        for name in ["pin", "middle"] {
+            case += &format!("support.{name} = {{ body = \"{name}\", mean = true, ux = 0.0 }}\n");
+        }
+        for (name, side) in [("left", "top"), ("right", "top"), ("middle", "bottom")] {
+            case += &format!("contact.{name} = {{ between = [\"{name}.bore\", \"pin.{side}\"] }}\n");
+        }
+        case += "load.pull = { on = \"pulled\", pressure = 20.0 }\n";
+        let file = write_scene(folder.path(), &Mesh { bodies }.text(), &case);
+        let ended = Run::file(&file).ranks(ranks).set("mesh.refine", refine).converged();
+        for (name, wanted) in [("left", 44.0), ("right", 44.0), ("middle", 88.0)] {
+            let force = ended.number(&format!("/contact/{name}/force"));
+            assert!((force / wanted - 1.0).abs() < 1e-3, "{cells} cells: {name} {force}");
+        }
+    }
+}

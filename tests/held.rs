@@ -577,4 +577,9 @@ output.fields = false
     let file = write_scene(folder.path(), &mesh.text(), &case.replace("pressure = 2.0", turned));
     let other = Run::file(&file).converged();
     assert!((force(&other, "wr") - 16.0).abs() < 1e-4 && force(&other, "wl") == 0.0, "{}", other.said());
+    // Nothing holds it down: what cannot press is pulled by, and the loads are named.
+    let file = write_scene(folder.path(), &mesh.text(), &case.replace("pressure = 10.0", "pressure = -10.0"));
+    let driven = Run::file(&file).ranks(2).ended();
+    assert_eq!(driven.code, Some(3), "{}", driven.said());
+    assert!(driven.said().contains("body b can move by (0, 1): load.p drives it there"), "{}", driven.said());
 }

@@ -25,7 +25,7 @@ load.top = { on = "body.top", rigid = true, force = [0.0, -5.0], ux = 0.0 }
 contact.seam = { between = ["block.top", "body.bottom"] }
 "#;
 
-/// Half a circle of radius 2, with coordinates of sixteen digits and of three: the spline through these has curvatures of its own.
+/// Half a circle of radius 2, with coordinates of sixteen digits, and to a five-hundredth: the spline through these has curvatures of its own.
 #[test]
 fn nodes_that_scatter_make_no_pressure_that_is_trusted() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -41,8 +41,8 @@ fn nodes_that_scatter_make_no_pressure_that_is_trusted() {
     let (error, peak, trust, _) = found(|x| x, 1);
     assert!(error < 1e-3 && (peak / hertz - 1.0).abs() < 0.02 && trust == true, "{error}, {peak} for {hertz}, {trust}");
     for ranks in [1, 2] {
-        let (error, peak, trust, words) = found(|x| (1e3 * x).round() / 1e3, ranks);
-        assert!(error > 0.04 && (peak / hertz - 1.0).abs() > 0.03, "{error}, {peak} for {hertz}");
+        let (error, peak, trust, words) = found(|x| (500.0 * x).round() / 500.0, ranks);
+        assert!(error > 0.04 && (peak / hertz - 1.0).abs() > 0.02, "{error}, {peak} for {hertz}");
         assert_eq!(trust, false);
         assert!(words.contains("\"body.bottom\" scatter"), "{words}");
     }

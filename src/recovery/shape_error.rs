@@ -74,3 +74,35 @@ fn deviation(values: &[f64], without_mean: bool) -> f64 {
     let mean = if without_mean { values.iter().sum::<f64>() / count } else { 0.0 };
     (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Spline;
+
+    /// Error of the slopes of the spline through points of a height over x, where it presses around the origin.
+    fn off(height: impl Fn(f64) -> f64) -> f64 {
+        let points: Vec<Point> = (-40..=40).map(|k| 0.05 * f64::from(k)).map(|x| Point::new(x, height(x))).collect();
+        let spline = Spline::through(points.iter().map(|point| point.x).collect(), &points, false);
+        let at = |k: i32| {
+            let x = Point::new(0.013 * f64::from(k), 0.0);
+            let (displacement, stress, distance) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+            TracePoint { arc: x.x, x, normal: Point::y(), lambda: 1.0, displacement, slip: 0.0, stress, distance, gap: 0.0 }
+        };
+        let pressing: Vec<TracePoint> = (-30..=30).map(at).collect();
+        slope_error(&[Curve::Spline(spline)], &pressing.iter().collect::<Vec<_>>(), true)
+    }
+
+    #[test]
+    fn what_nodes_leave_unknown_is_of_the_size_of_what_they_miss() {
+        let round = |x: f64| 2.0 - (4.0 - x * x).sqrt();
+        assert!(off(round) < 1e-6, "{}", off(round));
+        assert_eq!(off(|_| 0.0), 0.0);
+        // Every third node is off by 1e-4: slopes by that over the distance of nodes.
+        let scatter = off(|x| round(x) + if (20.0 * x).round() as i32 % 3 == 0 { 1e-4 } else { 0.0 });
+        assert!((1e-3..5e-3).contains(&scatter), "{scatter}");
+        // A ridge of two planes at .02 that nodes round off over two of their distances.
+        let ridge = off(|x| 0.02 * x.abs());
+        assert!((1e-3..1e-2).contains(&ridge), "{ridge}");
+    }
+}

@@ -107,3 +107,27 @@ impl WantedEdge<'_> {
         all
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::samples::seam;
+    use crate::mesh::each_once;
+    use crate::mesh::samples::two_blocks;
+
+    /// Two blocks, the upper one drawn a tenth into the lower one.
+    #[test]
+    fn both_sides_are_halved_however_deep_they_are_drawn_in_each_other() {
+        let mut mesh = two_blocks();
+        let upper = mesh.bodies.iter().position(|name| name == "upper").expect("named") as u32;
+        let of_upper = mesh.triangles.iter().filter(|triangle| triangle.body == upper).flat_map(|triangle| triangle.vertices);
+        each_once(of_upper).into_iter().for_each(|vertex| mesh.vertices[vertex as usize].y -= 0.1);
+        let pair = seam();
+        for height in [1.0, 0.9] {
+            let place = Point::new(0.6, height);
+            let wanted = WantedEdge { contact: &pair.name, between: &pair.between, place, half: 1e-3, edge: 0.1 };
+            let bodies = each_once(wanted.too_long(&mesh).into_iter().map(|at| mesh.triangles[at as usize].body));
+            assert_eq!(bodies.len(), 2, "a force at {place}");
+        }
+    }
+}
