@@ -1,14 +1,11 @@
 //! Edges of triangles, found by sorting their sides.
 
+use super::lists::Lists;
 use super::macro_mesh::{MacroEdge, MacroMesh, MacroTriangle};
 
-/// The sides of all triangles, sorted by their ends.
-pub(super) struct Edges {
-    /// Where the sides with each vertex as the lower one of their ends begin, and the end.
-    starts: Vec<u32>,
-    /// The higher end, and the side: three times its triangle, and which of its sides.
-    sides: Vec<(u32, u32)>,
-}
+/// The sides of all triangles by the lower of their ends, ascending: the higher end, and the side, three times its triangle and which of
+/// its sides.
+pub(super) struct Edges(Lists<(u32, u32)>);
 
 impl MacroMesh {
     /// Finds the edges of all triangles and numbers them in the order in which the triangles name them. Tells the first triangle
@@ -16,14 +13,14 @@ impl MacroMesh {
     pub(super) fn connect(&mut self) -> (Edges, Option<usize>) {
         let edges = Edges::new(self.vertices.len(), &self.triangles);
         // The first side of each edge, in the place of its number.
-        let firsts = edges.starts.windows(2).flat_map(|ends| {
-            let alike = edges.sides[ends[0] as usize..ends[1] as usize].chunk_by(|a, b| a.0 == b.0);
+        let firsts = edges.0.iter().flat_map(|sides| {
+            let alike = sides.chunk_by(|a, b| a.0 == b.0);
             alike.flat_map(|alike| alike.iter().map(|&(_, side)| (side, alike[0].1)))
         });
         firsts.for_each(|(side, first)| self.triangles[side as usize / 3].edges[side as usize % 3] = first);
-        self.edges = Vec::with_capacity(edges.sides.len() / 2 + self.vertices.len());
+        self.edges = Vec::with_capacity(edges.0.entries().len() / 2 + self.vertices.len());
         let mut overlapping = None;
-        for side in 0..edges.sides.len() {
+        for side in 0..edges.0.entries().len() {
             let (triangle, k) = (side / 3, side % 3);
             let MacroTriangle { vertices, edges, .. } = self.triangles[triangle];
             let ends = [vertices[k], vertices[(k + 1) % 3]];
@@ -48,29 +45,17 @@ impl MacroMesh {
 
 impl Edges {
     fn new(vertices: usize, triangles: &[MacroTriangle]) -> Self {
-        let all = || {
-            let ends = triangles.iter().flat_map(|t| (0..3).map(|k| [t.vertices[k], t.vertices[(k + 1) % 3]]));
-            ends.map(|[a, b]| [a.min(b), a.max(b)]).zip(0..)
-        };
-        // Sorted by the lower end first, by counting.
-        let mut starts = vec![0; vertices + 2];
-        all().for_each(|([low, _], _)| starts[low as usize + 2] += 1);
-        (2..starts.len()).for_each(|k| starts[k] += starts[k - 1]);
-        let mut sides = vec![(0, 0); 3 * triangles.len()];
-        for ([low, high], side) in all() {
-            let next = &mut starts[low as usize + 1];
-            sides[*next as usize] = (high, side);
-            *next += 1;
-        }
-        starts.pop();
-        starts.windows(2).for_each(|ends| sides[ends[0] as usize..ends[1] as usize].sort_unstable());
-        Self { starts, sides }
+        let ends = triangles.iter().flat_map(|t| (0..3).map(|k| [t.vertices[k], t.vertices[(k + 1) % 3]]));
+        let by_lower = ends.zip(0..).map(|([a, b], side)| (a.min(b) as usize, (a.max(b), side)));
+        let mut sides = Lists::new(vertices, by_lower);
+        sides.sort();
+        Self(sides)
     }
 
     /// The edge between two vertices of the triangles that have been connected.
     pub fn between(&self, triangles: &[MacroTriangle], [a, b]: [u32; 2]) -> Option<u32> {
         let (low, high) = (a.min(b) as usize, a.max(b));
-        let sides = &self.sides[*self.starts.get(low)? as usize..*self.starts.get(low + 1)? as usize];
+        let sides = (low < self.0.count()).then(|| self.0.of(low))?;
         let (_, side) = *sides.get(sides.partition_point(|side| side.0 < high)).filter(|side| side.0 == high)?;
         Some(triangles[side as usize / 3].edges[side as usize % 3])
     }

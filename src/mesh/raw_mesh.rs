@@ -2,7 +2,7 @@
 
 use super::FilePlace;
 use super::curve_piece::LooseCurve;
-use super::kept::Kept;
+use super::lists::Kept;
 use crate::geometry::Point;
 use std::collections::{HashMap, HashSet};
 

@@ -1,6 +1,6 @@
 //! The mesh of the bodies alone, as a file may hold it.
 
-use crate::mesh::kept::Kept;
+use crate::mesh::lists::Kept;
 use crate::mesh::macro_mesh::{Boundary, MacroEdge, MacroMesh, MacroTriangle, NamedPoint};
 
 impl MacroMesh {

@@ -1,8 +1,8 @@
 //! The interpolation to a coarser level as the rows of one rank need it.
 
 use super::level::Coarsening;
-use super::lists::Lists;
 use crate::element::Block;
+use crate::mesh::Lists;
 use crate::multigrid::stiffness::{LatticeOperator, StoredRows};
 use std::rc::Rc;
 

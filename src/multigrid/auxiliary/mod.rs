@@ -26,7 +26,6 @@
 mod grid;
 mod known_step;
 mod level;
-mod lists;
 mod operators;
 mod product;
 mod tree;

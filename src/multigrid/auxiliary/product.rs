@@ -5,9 +5,8 @@
 
 use super::known_step::{KnownStep, NONE};
 use super::level::Coarsening;
-use super::lists::Lists;
 use crate::element::Block;
-use crate::mesh::each_once;
+use crate::mesh::{Lists, each_once};
 use crate::multigrid::stiffness::{LatticeOperator, Part, StoredRows};
 use crate::petsc::{Result, Session};
 use std::ops::Range;

@@ -22,6 +22,7 @@ use super::row_kernel::RowWork;
 use super::stored_rows::StoredRows;
 use crate::element::{BadJacobian, Block, PlaneLaw, jacobian};
 use crate::geometry::Point;
+use crate::mesh::Lists;
 
 /// One of them.
 pub struct StraightTriangle {
@@ -131,13 +132,13 @@ impl StraightTriangles {
     /// Shows the rows that are not stored, ascending: their blocks in the columns that the pattern of the rows has, which are the node
     /// itself, later nodes and those whose rows are stored. The others are couplings of earlier rows, transposed.
     pub fn each_row(&self, rows: &StoredRows, mut show: impl FnMut(usize, &[u32], &[Block])) {
-        let (starts, places) = self.around_nodes(rows);
+        let around = self.around_nodes(rows);
         let mut blocks = Vec::new();
         for k in (0..rows.nodes.len()).filter(|&k| !rows.is_stored(k)) {
             let columns = &rows.near.columns[rows.near.row(k)];
             blocks.clear();
             blocks.resize(columns.len(), [[0.0; 2]; 2]);
-            for place in &places[starts[k] as usize..starts[k + 1] as usize] {
+            for place in around.of(k) {
                 let triangle = &self.triangles[*place as usize / 6];
                 let couplings = CornerBlocks::new(triangle.gradients, self.laws[triangle.law as usize]);
                 for (b, &node) in triangle.nodes.iter().enumerate() {
@@ -165,21 +166,10 @@ impl StraightTriangles {
         });
     }
 
-    /// Where the triangles around each node whose row is not stored begin in a list, and the list, ascending: six times the triangle, and
-    /// which of its nodes it is.
-    fn around_nodes(&self, rows: &StoredRows) -> (Vec<u32>, Vec<u32>) {
-        let nodes = || self.triangles.iter().flat_map(|triangle| triangle.nodes).zip(0..);
-        let nodes = || nodes().filter(|(node, _)| !rows.is_stored(*node as usize));
-        let mut starts = vec![0; rows.nodes.len() + 2];
-        nodes().for_each(|(node, _)| starts[node as usize + 2] += 1);
-        (2..starts.len()).for_each(|k| starts[k] += starts[k - 1]);
-        let mut places = vec![0; starts[starts.len() - 1] as usize];
-        for (node, place) in nodes() {
-            let next: &mut u32 = &mut starts[node as usize + 1];
-            places[*next as usize] = place;
-            *next += 1;
-        }
-        (starts, places)
+    /// The triangles around each node whose row is not stored, ascending: six times the triangle, and which of its nodes it is.
+    fn around_nodes(&self, rows: &StoredRows) -> Lists<u32> {
+        let nodes = self.triangles.iter().flat_map(|triangle| triangle.nodes).map(|node| node as usize).zip(0..);
+        Lists::new(rows.nodes.len(), nodes.filter(|(node, _)| !rows.is_stored(*node)))
     }
 }
 

@@ -2,19 +2,15 @@
 
 use crate::discretisation::{Coupled, Discretisation, Space};
 use crate::geometry::Point;
-use crate::mesh::{EdgeNode, MacroMesh};
+use crate::mesh::{EdgeNode, Lists, MacroMesh};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// Rows of `B` at one level: for each multiplier, node numbers with their two entries; multipliers that `D` couples have the same
 /// nodes. Columns of prescribed components are zero. A rank has those that it needs, whole: of groups that couple to a node of its
 /// own on this level, and on the finest level of its own multipliers. The others are empty.
-#[derive(Clone, Debug)]
-pub struct CouplingRows {
-    /// Where the entries of each row begin, and the end.
-    starts: Vec<u32>,
-    entries: Vec<(usize, Point)>,
-}
+#[derive(Clone, Debug, Default)]
+pub struct CouplingRows(Lists<(usize, Point)>);
 
 /// An entry of a row at one level: the node, which finds its parents on the next coarser level, with its number.
 #[derive(Clone, Copy)]
@@ -25,33 +21,25 @@ struct NodeEntry {
 }
 
 /// All rows of one level with their nodes.
-struct NodeRows {
-    starts: Vec<u32>,
-    entries: Vec<NodeEntry>,
-}
+#[derive(Default)]
+struct NodeRows(Lists<NodeEntry>);
 
 impl NodeRows {
-    fn new() -> Self {
-        Self { starts: vec![0], entries: Vec::new() }
-    }
-
     /// Ends a row with these entries: those of one node are summed, in their order.
     fn push(&mut self, row: &mut Vec<NodeEntry>, space: &Space) {
         row.sort_by_key(|entry| entry.number);
-        for of_node in row.chunk_by(|a, b| a.number == b.number) {
+        self.0.push(row.chunk_by(|a, b| a.number == b.number).map(|of_node| {
             let sum = of_node.iter().map(|entry| entry.value).sum();
-            let value = space.free_part(of_node[0].number, sum);
-            self.entries.push(NodeEntry { value, ..of_node[0] });
-        }
-        self.starts.push(self.entries.len() as u32);
+            NodeEntry { value: space.free_part(of_node[0].number, sum), ..of_node[0] }
+        }));
         row.clear();
     }
 
     /// One level down: each node hands its entries to its parents, by their weights.
     fn restricted(&self, mesh: &MacroMesh, fine: &Space, coarse: &Space) -> Self {
-        let (mut rows, mut row) = (Self::new(), Vec::new());
-        for ends in self.starts.windows(2) {
-            for entry in &self.entries[ends[0] as usize..ends[1] as usize] {
+        let (mut rows, mut row) = (Self::default(), Vec::new());
+        for of_multiplier in self.0.iter() {
+            for entry in of_multiplier {
                 let global = fine.to_global(entry.number, entry.value);
                 for (node, weight) in entry.node.parents(mesh, fine.numbering.level) {
                     row.push(NodeEntry { number: node.number(mesh, &coarse.numbering), node, value: weight * global });
@@ -64,18 +52,15 @@ impl NodeRows {
 
     /// Without nodes, and without the rows of groups that have no node of a rank and no multiplier that `is_own`.
     fn needed(&self, groups: &[Range<usize>], own: &Range<usize>, is_own: impl Fn(usize) -> bool) -> CouplingRows {
-        let row = |i: usize| &self.entries[self.starts[i] as usize..self.starts[i + 1] as usize];
-        let mut is_needed = vec![false; self.starts.len() - 1];
+        let mut is_needed = vec![false; self.0.count()];
         for group in groups {
-            let needed = group.clone().any(|i| is_own(i) || row(i).iter().any(|entry| own.contains(&entry.number)));
+            let needed = group.clone().any(|i| is_own(i) || self.0.of(i).iter().any(|entry| own.contains(&entry.number)));
             is_needed[group.clone()].fill(needed);
         }
-        let mut rows = CouplingRows { starts: vec![0], entries: Vec::new() };
-        for (i, is_needed) in is_needed.into_iter().enumerate() {
-            if is_needed {
-                rows.entries.extend(row(i).iter().map(|entry| (entry.number, entry.value)));
-            }
-            rows.starts.push(rows.entries.len() as u32);
+        let mut rows = CouplingRows::default();
+        for (row, is_needed) in self.0.iter().zip(is_needed) {
+            let kept = if is_needed { row } else { &[] };
+            rows.0.push(kept.iter().map(|entry| (entry.number, entry.value)));
         }
         rows
     }
@@ -87,7 +72,7 @@ impl CouplingRows {
     /// couples, one after the other.
     pub fn of_levels(problem: &Discretisation, groups: &[Range<usize>], rank: usize) -> Vec<Self> {
         let (mesh, spaces, finest) = (&problem.scene.mesh, &problem.spaces, problem.finest());
-        let (mut rows, mut row) = (NodeRows::new(), Vec::new());
+        let (mut rows, mut row) = (NodeRows::default(), Vec::new());
         let entry = |coupled: &Coupled, value: Point| {
             let number = coupled.node.number(mesh, &finest.numbering);
             NodeEntry { number, node: coupled.node, value }
@@ -110,7 +95,7 @@ impl CouplingRows {
 
     /// Entries of one multiplier, by ascending node number.
     pub fn row(&self, multiplier: usize) -> &[(usize, Point)] {
-        &self.entries[self.starts[multiplier] as usize..self.starts[multiplier + 1] as usize]
+        self.0.of(multiplier)
     }
 
     /// Entries of one multiplier on the nodes of a rank, each with the place of their first unknown among its own.
@@ -200,10 +185,10 @@ mod tests {
             };
             let mut everything = of_rank(0);
             for rows in (1..RANKS).map(of_rank) {
-                let larger = everything.iter_mut().zip(rows).filter(|(all, rows)| all.entries.len() < rows.entries.len());
+                let larger = everything.iter_mut().zip(rows).filter(|(all, rows)| all.0.entries().len() < rows.0.entries().len());
                 larger.for_each(|(all, rows)| *all = rows);
             }
-            assert!(everything.iter().all(|rows| !rows.entries.is_empty()));
+            assert!(everything.iter().all(|rows| !rows.0.entries().is_empty()));
             let mut kept = 0;
             for rank in 0..RANKS {
                 let problem = problem(space, rank);
