@@ -16,7 +16,7 @@ const NOWHERE: u32 = u32::MAX;
 
 /// Rows of some nodes of this rank. Columns count the nodes of this rank from 0; those of others have places in a list of
 /// their own. Rows with the same couplings share them: along an edge of the macro mesh, or inside of a graded macro triangle, most are.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub struct StoredRows {
     /// The nodes, ascending, counted from this rank's first.
     pub nodes: Vec<u32>,
@@ -70,23 +70,15 @@ impl BlockColumn {
     }
 }
 
-impl Default for Part {
-    fn default() -> Self {
-        Self { starts: vec![0], columns: Vec::new(), firsts: Vec::new(), kept: Rc::default(), blocks: Vec::new() }
-    }
-}
-
 impl Part {
     /// Zeros in these columns, ascending, of each row.
     pub fn zeros(rows: impl Iterator<Item = impl Iterator<Item = u32>>) -> Self {
-        let mut part = Self::default();
-        for columns in rows {
-            part.firsts.push(part.columns.len() as u32);
-            part.columns.extend(columns);
-            part.starts.push(part.columns.len() as u32);
+        let (mut starts, mut columns) = (vec![0], Vec::new());
+        for row in rows {
+            columns.extend(row);
+            starts.push(columns.len() as u32);
         }
-        part.blocks = vec![[[0.0; 2]; 2]; part.columns.len()];
-        part
+        Self::of_columns(starts, columns, |_| true)
     }
 
     /// Zeros in these columns of some rows, one list after the other; `starts` are where those of each row begin.
@@ -161,24 +153,41 @@ impl Part {
     }
 }
 
+/// Blocks that are collected row by row: rows with the same ones share them.
+#[derive(Default)]
+struct SharedBlocks {
+    known: FxHashMap<u64, u32>,
+    blocks: Vec<Block>,
+}
+
+impl SharedBlocks {
+    /// Where the blocks of a row begin among all; one that `keeps` its own shares them with none before it.
+    fn place(&mut self, row: &[Block], keeps: bool) -> u32 {
+        let next = self.blocks.len() as u32;
+        let first = if keeps { next } else { *self.known.entry(fingerprint(row)).or_insert(next) };
+        // Two rows with one fingerprint are told apart.
+        let first = if self.blocks[first as usize..].starts_with(row) { first } else { next };
+        if first == next {
+            self.blocks.extend_from_slice(row);
+        }
+        first
+    }
+
+    /// The blocks, in no more memory than they need.
+    fn into_blocks(mut self) -> Vec<Block> {
+        self.blocks.shrink_to_fit();
+        self.blocks
+    }
+}
+
 impl Part {
     /// Shares the blocks of rows that have the same ones, but for those that are to keep their own.
     fn share(&mut self, keeps: &[bool]) {
-        let mut known: FxHashMap<u64, u32> = FxHashMap::default();
-        let mut blocks: Vec<Block> = Vec::new();
-        for (k, keeps) in keeps.iter().enumerate() {
-            let row = self.blocks_of(k);
-            let next = blocks.len() as u32;
-            let first = if *keeps { next } else { *known.entry(fingerprint(row)).or_insert(next) };
-            // Two rows with one fingerprint are told apart.
-            let first = if blocks[first as usize..].starts_with(row) { first } else { next };
-            if first == next {
-                blocks.extend_from_slice(row);
-            }
-            self.firsts[k] = first;
+        let mut shared = SharedBlocks::default();
+        for (k, &keeps) in keeps.iter().enumerate() {
+            self.firsts[k] = shared.place(self.blocks_of(k), keeps);
         }
-        blocks.shrink_to_fit();
-        self.blocks = blocks;
+        self.blocks = shared.into_blocks();
     }
 }
 
@@ -241,21 +250,11 @@ impl StoredRows {
         contact.filter_map(|node| self.place(node)).for_each(|k| keeps[k] = true);
         self.near.share(&keeps);
         self.far.share(&keeps);
-        let mut known: FxHashMap<u64, u32> = FxHashMap::default();
-        let mut inverses: Vec<Block> = Vec::new();
-        for (k, keeps) in keeps.iter().enumerate() {
-            let own = self.inverses[self.inverse_of[k] as usize];
-            let next = inverses.len() as u32;
-            let place = if *keeps { next } else { *known.entry(fingerprint(&[own])).or_insert(next) };
-            // Two inverses with one fingerprint are told apart.
-            let place = if place < next && inverses[place as usize] != own { next } else { place };
-            if place == next {
-                inverses.push(own);
-            }
-            self.inverse_of[k] = place;
+        let mut shared = SharedBlocks::default();
+        for (k, keeps) in keeps.into_iter().enumerate() {
+            self.inverse_of[k] = shared.place(&[*self.inverse(k)], keeps);
         }
-        inverses.shrink_to_fit();
-        self.inverses = inverses;
+        self.inverses = shared.into_blocks();
     }
 
     /// Entries on and below the diagonal of the matrix of single unknowns, if these rows are those of all nodes.
