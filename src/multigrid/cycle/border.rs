@@ -11,14 +11,12 @@
 //! x = y - Z p,   y = A⁻¹ b,   p = Σ⁻¹ (g - Vᵀ y),   Z = A⁻¹ V,   Σ = E - Vᵀ Z
 //! ```
 
+use crate::multigrid::sparse::{Sparse, add_multiple, dot};
 use crate::petsc::Session;
 use nalgebra::{DMatrix, DVector};
 
 /// Singular values of the scaled `Σ` below this share of the largest belong to motions that nothing resists.
 const NOTHING: f64 = 1e-13;
-
-/// Values at displacement unknowns of this rank, by their places.
-pub type Sparse = Vec<(u32, f64)>;
 
 /// Unknowns beside the displacements.
 pub struct Border {
@@ -81,9 +79,7 @@ impl LevelBorder {
     /// `b - V p` on a level.
     pub fn subtract(&self, level: usize, p: &[f64], b: &mut [[f64; 2]]) {
         let b = b.as_flattened_mut();
-        for (column, p) in self.levels[level].iter().zip(p) {
-            column.iter().for_each(|&(at, value)| b[at as usize] -= p * value);
-        }
+        self.levels[level].iter().zip(p).for_each(|(column, p)| add_multiple(column, -p, b));
     }
 
     /// `p` of what has been found on the coarsest level without it, which becomes what belongs to it. **Collective**
@@ -105,13 +101,4 @@ pub fn scaled_inverse(schur: DMatrix<f64>, scales: &[f64]) -> DMatrix<f64> {
     let schur = over(schur);
     let least = NOTHING * schur.amax();
     over(schur.pseudo_inverse(least).unwrap_or_else(|_| DMatrix::zeros(scales.len(), scales.len())))
-}
-
-/// What of values is not zero.
-pub fn column_of(values: &[f64]) -> Sparse {
-    values.iter().enumerate().filter(|(_, value)| **value != 0.0).map(|(at, &value)| (at as u32, value)).collect()
-}
-
-fn dot(column: &Sparse, x: &[f64]) -> f64 {
-    column.iter().map(|&(at, value)| value * x[at as usize]).sum()
 }

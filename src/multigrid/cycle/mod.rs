@@ -12,10 +12,11 @@ mod level;
 mod sparse_factor;
 
 use crate::multigrid::interpolation::Interpolation;
+use crate::multigrid::sparse::{add_multiple, sparse};
 use crate::multigrid::stiffness::{LatticeOperator, SweepHalves};
 use crate::petsc::{Action, Result, Session, Vector};
-pub use border::{Border, Sparse, scaled_inverse};
-use border::{LevelBorder, column_of};
+use border::LevelBorder;
+pub use border::{Border, scaled_inverse};
 use coarsest::Coarsest;
 use level::CycleLevel;
 use std::cell::RefCell;
@@ -75,11 +76,11 @@ impl Cycle {
         for column in &border.columns {
             let mut forces = take(&mut self.r);
             forces.fill([0.0; 2]);
-            column.iter().for_each(|&(at, value)| forces.as_flattened_mut()[at as usize] += value);
+            add_multiple(column, 1.0, forces.as_flattened_mut());
             self.restrict(&forces[..self.levels[top].nodes]);
             self.r = forces;
-            lower.iter_mut().zip(&self.levels).for_each(|(columns, level)| columns.push(column_of(level.b.as_flattened())));
-            below.push(column_of(self.coarsest.b.as_flattened()));
+            lower.iter_mut().zip(&self.levels).for_each(|(columns, level)| columns.push(sparse(level.b.as_flattened())));
+            below.push(sparse(self.coarsest.b.as_flattened()));
             self.coarsest.solve();
             responses.push(self.coarsest.x.as_flattened().to_vec());
         }

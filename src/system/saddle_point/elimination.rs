@@ -2,7 +2,7 @@
 
 use super::border_blocks::{BorderBlocks, BorderColumn, BorderUnknown};
 use crate::discretisation::Form;
-use crate::multigrid::{Border, Sparse};
+use crate::multigrid::{Border, Sparse, add_multiple, dot};
 use crate::petsc::{Matrix, Operator, Result, Vector};
 use crate::system::rigid_border::RigidComponent;
 use nalgebra::{DMatrix, DVector};
@@ -105,11 +105,11 @@ impl BorderBlocks {
         let (BorderUnknown::Motion(component) | BorderUnknown::Mean(component)) = unknown;
         let (of, Ok(at)) = (&self.border.components[component], self.linked.binary_search(&component)) else { return };
         match unknown {
-            BorderUnknown::Mean(_) => add(of.mean.as_ref().unwrap_or(&Sparse::new()), factor, upper),
+            BorderUnknown::Mean(_) => add_multiple(of.mean.as_ref().unwrap_or(&Sparse::new()), factor, upper),
             BorderUnknown::Motion(_) => {
-                add(if self.form == Form::Plain { &of.forces } else { &self.columns[at].forces }, factor, upper);
+                add_multiple(if self.form == Form::Plain { &of.forces } else { &self.columns[at].forces }, factor, upper);
                 if whole {
-                    add(&self.columns[at].gaps, factor, lower);
+                    add_multiple(&self.columns[at].gaps, factor, lower);
                 }
             }
         }
@@ -188,12 +188,4 @@ impl Operator for BorderedProduct {
         self.border.borrow().subtract_eliminated(&x.values(), &mut y.values_mut());
         Ok(())
     }
-}
-
-fn dot(row: &Sparse, x: &[f64]) -> f64 {
-    row.iter().map(|&(at, value)| value * x[at as usize]).sum()
-}
-
-fn add(column: &Sparse, factor: f64, y: &mut [f64]) {
-    column.iter().for_each(|&(at, value)| y[at as usize] += factor * value);
 }
