@@ -133,10 +133,7 @@ impl<'a> Assembly<'a> {
     /// The stored rows with zeros, and their columns of other ranks.
     fn pattern(&self, contact: &ContactNeighbours) -> (StoredRows, Vec<usize>) {
         let (level, own) = (self.space.numbering.level, &self.space.own);
-        let of_contact = || {
-            let place = |row: usize| place(&self.nodes, row - own.start).expect("nodes of contact lie on sides");
-            contact.range(own.clone()).map(move |(&row, others)| (place(row), others))
-        };
+        let of_contact = || contact.range(own.clone()).map(|(&row, others)| (self.place(row), others));
         let is_one = level.is_one_triangle();
         let mut counts = vec![u32::from(is_one); self.nodes.len()];
         for part in &self.parts {
@@ -166,6 +163,12 @@ impl<'a> Assembly<'a> {
         couplings.into_rows(self.nodes.clone(), own, of_sides, |k| self.is_stored[k])
     }
 
+    /// The place of the row of a node of this rank's that does not lie inside of a whole macro triangle.
+    #[inline]
+    fn place(&self, node: usize) -> usize {
+        place(&self.nodes, node - self.space.own.start).expect("a node that has a row")
+    }
+
     /// Shows the stored rows of this rank that a macro triangle has a part in: place and lattice node.
     #[inline]
     fn each_row(&self, part: &AssemblyPart, mut show: impl FnMut(usize, (usize, usize))) {
@@ -177,10 +180,9 @@ impl<'a> Assembly<'a> {
             if !self.space.own.contains(&node) {
                 return;
             }
-            let place = || place(&self.nodes, node - self.space.own.start).expect("a stored row");
             let k = match lattice::place(n, i, j) {
-                lattice::Place::Inside(_) => *next.insert(next.map_or_else(place, |k| k + 1)),
-                _ => place(),
+                lattice::Place::Inside(_) => *next.insert(next.map_or_else(|| self.place(node), |k| k + 1)),
+                _ => self.place(node),
             };
             show(k, (i, j));
         };
@@ -195,7 +197,7 @@ impl<'a> Assembly<'a> {
         let own = &self.space.own;
         let mut both = |a: usize, b: usize| {
             for (row, other) in [(a, b), (b, a)].into_iter().filter(|(row, _)| own.contains(row)) {
-                let k = place(&self.nodes, row - own.start).expect("a row");
+                let k = self.place(row);
                 if self.is_stored[k] || other > row || self.is_stored[other - own.start] {
                     show(k, other);
                 }
@@ -219,19 +221,6 @@ impl<'a> Assembly<'a> {
                     both(opposite, ab);
                 }
                 both(ab, bc);
-            }
-        }
-    }
-
-    /// Shows the stored rows of a macro triangle that is a single triangle, all of whose nodes are coupled: the place of
-    /// each row, which of the nodes it is of, and the numbers of all nodes.
-    #[inline]
-    fn each_row_of_one<const N: usize>(&self, part: &AssemblyPart, mut show: impl FnMut(usize, usize, &[usize; N])) {
-        let (nodes, own) = (part.numbers.of_one::<N>(), &self.space.own);
-        for (a, row) in nodes.iter().enumerate().filter(|(_, row)| own.contains(row)) {
-            let k = place(&self.nodes, row - own.start).expect("a stored row");
-            if self.is_stored[k] {
-                show(k, a, &nodes);
             }
         }
     }
@@ -278,17 +267,21 @@ impl<'a> Assembly<'a> {
         lift: &mut impl FnMut(usize, Point),
     ) {
         let constraint = |node: usize| self.space.constraints.get(node);
-        self.each_row_of_one::<N>(part, |place, a, nodes| {
-            let held = constraint(nodes[a]);
+        let (nodes, own) = (part.numbers.of_one::<N>(), &self.space.own);
+        for (a, row) in nodes.into_iter().enumerate().filter(|(_, row)| own.contains(row)) {
+            let (place, held) = (self.place(row), constraint(row));
+            if !self.is_stored[place] {
+                continue;
+            }
             for (b, &node) in nodes.iter().enumerate() {
                 let Some(block) = coupling(a, b) else { continue };
                 let block = match (held, constraint(node)) {
                     (None, None) => block,
-                    (left, right) => constrained(&block, left, right, a == b, |force| lift(nodes[a], force)),
+                    (left, right) => constrained(&block, left, right, a == b, |force| lift(row, force)),
                 };
-                rows.add(place, BlockColumn::of(node, &self.space.own, far), &block);
+                rows.add(place, BlockColumn::of(node, own, far), &block);
             }
-        });
+        }
     }
 
     /// Shows what prescribed displacements on the sides of a macro triangle do to its inner nodes.
@@ -312,8 +305,7 @@ impl<'a> Assembly<'a> {
             for edge in springs.edges(mesh) {
                 springs.stiffness(mesh, edge, &self.space.numbering, |row, node, block| {
                     if own.contains(&row) {
-                        let place = place(&self.nodes, row - own.start).expect("a stored row");
-                        let held = constraint(row);
+                        let (place, held) = (self.place(row), constraint(row));
                         let block = constrained(&block, held, constraint(node), row == node, |force| lift(row, force));
                         rows.add(place, BlockColumn::of(node, own, far), &block);
                     }
