@@ -70,6 +70,19 @@ fn side_node(n: usize, k: usize) -> (usize, usize) {
     }
 }
 
+/// The place of a node: counted from the first of those that are `here`, or behind all of these by its place among those that are
+/// `far`, ascending.
+///
+/// # Panics
+/// If it is neither here nor in the list.
+pub fn place_among(node: usize, here: &Range<usize>, far: &[usize]) -> u32 {
+    let place = match here.contains(&node) {
+        true => node - here.start,
+        false => here.len() + far.binary_search(&node).expect("a known node"),
+    };
+    place as u32
+}
+
 /// Inner nodes of each row: places in a lattice of one macro triangle, and among all inner nodes.
 pub fn inner_rows(n: usize) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
     (1..n - 1).map(move |j| {
@@ -103,10 +116,7 @@ impl TriangleNodes {
         let n = space.numbering.level.intervals;
         let first = numbers.node(1, 1) - here.start;
         let nodes = || side_nodes(n).map(|(i, j)| numbers.node(i, j));
-        let place = |node: usize| match here.contains(&node) {
-            true => (node - here.start) as u32,
-            false => (here.len() + far.binary_search(&node).expect("a known node")) as u32,
-        };
+        let place = |node: usize| place_among(node, here, far);
         let turned = nodes().zip(0..).filter_map(|(node, k)| Some((k, free_frame(space.constraints.get(node)?))));
         Self {
             n,

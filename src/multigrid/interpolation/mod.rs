@@ -2,7 +2,6 @@
 
 mod halved_rows;
 mod node_interpolation;
-mod parentage;
 mod parents;
 mod whole;
 
@@ -11,7 +10,7 @@ pub use node_interpolation::{InterpolationRoom, NodeInterpolation};
 use crate::discretisation::Discretisation;
 use crate::multigrid::auxiliary::{Coarsening, coarsenings};
 use crate::petsc::Session;
-use parentage::Parentage;
+use parents::Parentage;
 use std::ops::Range;
 use std::rc::Rc;
 

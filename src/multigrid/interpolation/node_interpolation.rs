@@ -1,14 +1,13 @@
 //! Interpolation by nodes: whole macro triangles, halved rows inside of others, and a list of the other nodes.
 
 use super::halved_rows::{HalvedRow, HalvedRows};
-use super::parentage::Parentage;
-use super::parents::NodeParents;
+use super::parents::{NodeParents, Parentage};
 use super::whole;
 use crate::discretisation::{Scene, Space};
 use crate::element::Block;
 use crate::geometry::Point;
 use crate::mesh::{each_once, lattice};
-use crate::multigrid::triangle_lattice::{Lane, LatticeRoom, TriangleNodes, side_nodes};
+use crate::multigrid::triangle_lattice::{Lane, LatticeRoom, TriangleNodes, place_among, side_nodes};
 use crate::petsc::{Halo, Session};
 use std::ops::Range;
 
@@ -21,11 +20,7 @@ pub struct NodeInterpolation {
     /// Fine lattice intervals.
     n: usize,
     halved: HalvedRows,
-    /// Nodes in the middle of two parents, or on one of them twice.
-    even: Vec<[u32; 3]>,
-    /// Other couplings: of graded edges, of auxiliary levels, and of supports.
-    weighted: Vec<(u32, u32, f64)>,
-    turned: Vec<(u32, u32, Block)>,
+    others: CouplingLists,
     /// Nodes that take nothing over.
     unparented: Vec<u32>,
     /// Coarse nodes here, and how many are elsewhere: in lists they come behind those here.
@@ -34,29 +29,43 @@ pub struct NodeInterpolation {
     far: usize,
 }
 
-/// Nodes in the middle of two parents, and the other couplings, as [`NodeInterpolation`] has them.
-type CouplingLists = (Vec<[u32; 3]>, Vec<(u32, u32, f64)>, Vec<(u32, u32, Block)>);
+/// Couplings of the nodes that are worked on one by one.
+#[derive(Default)]
+struct CouplingLists {
+    /// Nodes in the middle of two parents, or on one of them twice.
+    even: Vec<[u32; 3]>,
+    /// Other couplings: of graded edges, of auxiliary levels, and of supports.
+    weighted: Vec<(u32, u32, f64)>,
+    turned: Vec<(u32, u32, Block)>,
+}
 
-/// The lists of the nodes that have these parents; `far` are the coarse nodes of other ranks, ascending.
-fn lists(rows: &NodeParents, fine: &Space, coarse: &Space, far: &[usize]) -> CouplingLists {
-    let place = |node: usize| match coarse.own.contains(&node) {
-        true => (node - coarse.own.start) as u32,
-        false => (coarse.own.len() + far.binary_search(&node).expect("a known node")) as u32,
-    };
-    let (mut even, mut weighted, mut others) = (Vec::new(), Vec::new(), Vec::new());
-    for (node, pair) in rows.iter() {
-        let (at, weights) = ((node - fine.own.start) as u32, rows.weights(node));
-        let plain = fine.constraints.get(node).is_none() && pair.iter().all(|&p| coarse.constraints.get(p).is_none());
-        if plain && weights == [0.5; 2] {
-            even.push([at, place(pair[0]), place(pair[1])]);
-            continue;
+impl CouplingLists {
+    /// Of the nodes that have these parents; `far` are the coarse nodes of other ranks, ascending.
+    fn new(rows: &NodeParents, fine: &Space, coarse: &Space, far: &[usize]) -> Self {
+        let place = |node: usize| place_among(node, &coarse.own, far);
+        let mut lists = Self::default();
+        for (node, pair) in rows.iter() {
+            let (at, weights) = ((node - fine.own.start) as u32, rows.weights(node));
+            let plain = fine.constraints.get(node).is_none() && pair.iter().all(|&p| coarse.constraints.get(p).is_none());
+            if plain && weights == [0.5; 2] {
+                lists.even.push([at, place(pair[0]), place(pair[1])]);
+                continue;
+            }
+            for (parent, weight) in pair.into_iter().zip(weights) {
+                let coupling = Parentage { node, parent, weight, turned: turned(fine, coarse, node, parent) };
+                lists.push(coupling, at, place(parent));
+            }
         }
-        for (parent, weight) in pair.into_iter().zip(weights) {
-            let coupling = Parentage { node, parent, weight, turned: turned(fine, coarse, node, parent) };
-            push(coupling, at, place(parent), &mut weighted, &mut others);
+        lists
+    }
+
+    /// Adds a coupling of nodes at these places.
+    fn push(&mut self, coupling: Parentage, at: u32, parent: u32) {
+        match coupling.turned {
+            None => self.weighted.push((at, parent, coupling.weight)),
+            Some(_) => self.turned.push((at, parent, coupling.block())),
         }
     }
-    (even, weighted, others)
 }
 
 /// A macro triangle whose inner nodes are worked on as a whole.
@@ -105,25 +114,14 @@ impl NodeInterpolation {
         });
         let parents = rows.iter().flat_map(|(_, pair)| pair).chain(sides);
         let far = each_once(parents.filter(|node| !coarse.own.contains(node)));
-        let (even, weighted, turned) = lists(&rows, fine, coarse, &far);
+        let others = CouplingLists::new(&rows, fine, coarse, &far);
         let halo = Halo::new(session, &coarse.own, &far);
         let whole = whole.iter().map(|triangle| {
             let first = fine.numbering.triangle(&scene.mesh, *triangle as usize).node(1, 1) - fine.own.start;
             let coarse = TriangleNodes::new(&numbers(triangle), coarse, &coarse.own, &far);
             WholeTriangle { fine: first..first + lattice::inner_count(n), coarse }
         });
-        Self {
-            whole: whole.collect(),
-            n,
-            halved,
-            even,
-            weighted,
-            turned,
-            unparented: Vec::new(),
-            coarse: coarse.own.len(),
-            halo,
-            far: far.len(),
-        }
+        Self { whole: whole.collect(), n, halved, others, unparented: Vec::new(), coarse: coarse.own.len(), halo, far: far.len() }
     }
 
     /// From a list of all couplings of the fine nodes of this rank. **Collective**
@@ -135,19 +133,16 @@ impl NodeInterpolation {
     ) -> Self {
         let parents = couplings.clone().map(|coupling| coupling.parent);
         let far = each_once(parents.filter(|parent| !coarse.contains(parent)));
-        let (mut weighted, mut turned, mut has_parent) = (Vec::new(), Vec::new(), vec![false; fine.len()]);
+        let (mut others, mut has_parent) = (CouplingLists::default(), vec![false; fine.len()]);
         for coupling in couplings {
             has_parent[coupling.node - fine.start] = true;
-            let place = match coarse.contains(&coupling.parent) {
-                true => coupling.parent - coarse.start,
-                false => coarse.len() + far.binary_search(&coupling.parent).expect("a known node"),
-            };
-            push(coupling, (coupling.node - fine.start) as u32, place as u32, &mut weighted, &mut turned);
+            let parent = place_among(coupling.parent, coarse, &far);
+            others.push(coupling, (coupling.node - fine.start) as u32, parent);
         }
         let halo = Halo::new(session, coarse, &far);
         let unparented = (0..fine.len() as u32).filter(|&node| !has_parent[node as usize]).collect();
-        let (whole, halved, even) = (Vec::new(), HalvedRows::default(), Vec::new());
-        Self { whole, n: 0, halved, even, weighted, turned, unparented, coarse: coarse.len(), halo, far: far.len() }
+        let (whole, halved) = (Vec::new(), HalvedRows::default());
+        Self { whole, n: 0, halved, others, unparented, coarse: coarse.len(), halo, far: far.len() }
     }
 
     /// Whether its whole macro triangles are these, by their inner nodes.
@@ -162,20 +157,20 @@ impl NodeInterpolation {
         self.prolong_inside::<ADD>(false, x, &far, y, room);
         let coarse = self.coarse;
         let value = |at: u32| if (at as usize) < coarse { x[at as usize] } else { far[at as usize - coarse] };
-        for &[node, a, b] in &self.even {
+        for &[node, a, b] in &self.others.even {
             let (a, b, to) = (value(a), value(b), &mut y[node as usize]);
             (0..2).for_each(|k| to[k] = 0.5 * (a[k] + b[k]) + if ADD { to[k] } else { 0.0 });
         }
         if !ADD {
             self.unparented.iter().for_each(|&node| y[node as usize] = [0.0; 2]);
-            self.weighted.iter().for_each(|&(node, ..)| y[node as usize] = [0.0; 2]);
-            self.turned.iter().for_each(|&(node, ..)| y[node as usize] = [0.0; 2]);
+            self.others.weighted.iter().for_each(|&(node, ..)| y[node as usize] = [0.0; 2]);
+            self.others.turned.iter().for_each(|&(node, ..)| y[node as usize] = [0.0; 2]);
         }
-        for &(node, parent, weight) in &self.weighted {
+        for &(node, parent, weight) in &self.others.weighted {
             let x = value(parent);
             (0..2).for_each(|k| y[node as usize][k] += weight * x[k]);
         }
-        for &(node, parent, block) in &self.turned {
+        for &(node, parent, block) in &self.others.turned {
             let x = value(parent);
             (0..2).for_each(|k| y[node as usize][k] += block[k][0] * x[0] + block[k][1] * x[1]);
         }
@@ -245,27 +240,20 @@ impl NodeInterpolation {
             let sum = if (at as usize) < coarse { &mut x[at as usize] } else { &mut far[at as usize - coarse] };
             (0..2).for_each(|k| sum[k] += value[k]);
         };
-        for &[node, a, b] in &self.even {
+        for &[node, a, b] in &self.others.even {
             let value = y[node as usize].map(|v| 0.5 * v);
             add(a, value);
             add(b, value);
         }
-        for &(node, parent, weight) in &self.weighted {
+        for &(node, parent, weight) in &self.others.weighted {
             add(parent, y[node as usize].map(|v| weight * v));
         }
-        for &(node, parent, block) in &self.turned {
+        for &(node, parent, block) in &self.others.turned {
             let y = y[node as usize];
             add(parent, [0, 1].map(|k| block[0][k] * y[0] + block[1][k] * y[1]));
         }
         self.halved.restrict(y, x);
         self.halo.give(&far, x);
-    }
-}
-
-fn push(coupling: Parentage, at: u32, parent: u32, weighted: &mut Vec<(u32, u32, f64)>, turned: &mut Vec<(u32, u32, Block)>) {
-    match coupling.turned {
-        None => weighted.push((at, parent, coupling.weight)),
-        Some(_) => turned.push((at, parent, coupling.block())),
     }
 }
 

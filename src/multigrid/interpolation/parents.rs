@@ -1,9 +1,31 @@
-//! Fine nodes with their coarse parents.
+//! Fine nodes with their coarse parents, and what they take over of these.
 
 use crate::discretisation::{Scene, Space};
+use crate::element::Block;
 use crate::mesh::lattice::{self, Place};
 use std::collections::HashMap;
 use std::ops::Range;
+
+/// What a fine node takes over of a coarse one.
+#[derive(Clone, Copy)]
+pub struct Parentage {
+    /// The fine node.
+    pub node: usize,
+    /// The coarse one.
+    pub parent: usize,
+    /// Its share.
+    pub weight: f64,
+    /// What the fine node would take over of all of it, in their frames; none if these are the axes of the plane, in which both move
+    /// freely.
+    pub turned: Option<Block>,
+}
+
+impl Parentage {
+    /// Of the whole of it, times the share.
+    pub fn block(&self) -> Block {
+        self.turned.unwrap_or([[1.0, 0.0], [0.0, 1.0]]).map(|row| row.map(|value| self.weight * value))
+    }
+}
 
 /// Weights of the parents of most nodes.
 const EVEN: [f64; 2] = [0.5; 2];
