@@ -55,16 +55,6 @@ impl Formula {
         Ok(Self { text: text.into(), program })
     }
 
-    /// Whether a text is made of white space, signs, digits, these variables and known names alone, as every formula is.
-    pub fn is_spelt(text: &str, variables: &[&str]) -> bool {
-        spelling::is_spelt(text, variables)
-    }
-
-    /// The regular expression of such texts.
-    pub fn pattern(variables: &[&str]) -> String {
-        spelling::pattern(variables)
-    }
-
     /// The formula that is the same everywhere.
     pub fn constant(value: f64) -> Self {
         Self { text: format!("{value:?}"), program: vec![Instruction::Number(value)] }

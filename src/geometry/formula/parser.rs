@@ -8,9 +8,9 @@ use crate::geometry::place::Quote;
 const FUNCTIONS: [(&str, Function); 5] =
     [("sqrt", Function::Sqrt), ("sin", Function::Sin), ("cos", Function::Cos), ("exp", Function::Exp), ("log", Function::Log)];
 
-/// Names of what a formula may call.
-pub fn function_names() -> impl Iterator<Item = &'static str> + Clone {
-    FUNCTIONS.iter().map(|(name, _)| *name)
+/// Every name that a formula of some variables may have.
+pub fn names<'a>(variables: &'a [&'a str]) -> impl Iterator<Item = &'a str> + Clone {
+    variables.iter().copied().chain(["pi"]).chain(FUNCTIONS.iter().map(|(name, _)| *name))
 }
 
 /// Deepest nesting of parentheses, signs and powers; keeps the recursion short.
@@ -187,8 +187,7 @@ impl Parser<'_> {
 
     /// What may start a value.
     fn allowed(&self) -> String {
-        let functions = FUNCTIONS.map(|(name, _)| name);
-        let names: Vec<&str> = self.variables.iter().copied().chain(["pi"]).chain(functions).collect();
+        let names: Vec<&str> = names(self.variables).collect();
         format!("a number, {}, - or (", names.join(", "))
     }
 
