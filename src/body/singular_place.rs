@@ -53,6 +53,13 @@ pub struct SingularPlace {
     pub why: Unbounded,
 }
 
+impl SingularPlace {
+    /// A vertex of the undeformed body.
+    pub fn at_vertex(mesh: &MacroMesh, body: usize, vertex: u32, why: Unbounded) -> Self {
+        Self { body, place: mesh.vertices[vertex as usize], vertex: Some(vertex), is_deformed: false, why }
+    }
+}
+
 impl Display for SingularPlace {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         let place = Coordinates(self.place);
@@ -106,17 +113,11 @@ pub fn singular_places(mesh: &MacroMesh, parts: &[&BodyPart], supports: &[Suppor
             let is_on_mirror = at.edges.iter().all(|&edge| hold(edge).is_mirror());
             joint.filter(|_| !is_on_mirror).map(|_| Unbounded::Materials)
         });
-        let (body, place) = (mesh.body_beside(at.edges[0]), mesh.vertices[at.vertex as usize]);
-        found.extend(why.map(|why| SingularPlace { body, place, vertex: Some(at.vertex), is_deformed: false, why }));
+        found.extend(why.map(|why| SingularPlace::at_vertex(mesh, mesh.body_beside(at.edges[0]), at.vertex, why)));
     }
     let inside = joints.into_iter().filter(|(_, Joint { directions, .. })| turns(directions));
-    found.extend(inside.map(|(vertex, Joint { body, .. })| SingularPlace {
-        body,
-        place: mesh.vertices[vertex as usize],
-        vertex: Some(vertex),
-        is_deformed: false,
-        why: Unbounded::Materials,
-    }));
+    let at_joint = |(vertex, Joint { body, .. })| SingularPlace::at_vertex(mesh, body, vertex, Unbounded::Materials);
+    found.extend(inside.map(at_joint));
     found
 }
 

@@ -197,7 +197,7 @@ fn all_singular_places(found: &Evaluation, grows: &[bool], joints: &[Vec<Point>]
     let held = scene.supports.iter().zip(&balance.reactions);
     let held =
         held.filter(|(_, reaction)| reaction.norm() > LOADED * balance.forces).filter_map(|(support, _)| support.at.as_ref());
-    all.extend(held.chain(scene.point_loads.iter().map(|load| &load.at)).filter_map(|spot| at_point(problem, spot)));
+    all.extend(held.chain(scene.point_loads.iter().map(|load| &load.at)).filter_map(|spot| at_point(&scene.mesh, spot)));
     let angles = scene.mesh.boundary_vertices().into_iter().map(|found| (found.vertex, found.angle)).collect();
     let contacts = problem.contacts.iter().zip(grows);
     all.extend(
@@ -221,12 +221,10 @@ fn without_rounding(place: Point, size: f64) -> Point {
 }
 
 /// The vertex of a point that carries a force.
-fn at_point(problem: &Discretisation, spot: &Spot) -> Option<SingularPlace> {
-    let mesh = &problem.scene.mesh;
+fn at_point(mesh: &MacroMesh, spot: &Spot) -> Option<SingularPlace> {
     let vertex = mesh.vertex_at(spot)?;
-    let triangle = mesh.triangles.iter().find(|triangle| triangle.vertices.contains(&vertex))?;
-    let (body, place) = (triangle.body as usize, mesh.vertices[vertex as usize]);
-    Some(SingularPlace { body, place, vertex: Some(vertex), is_deformed: false, why: Unbounded::Point })
+    let body = mesh.triangles[mesh.triangle_at(vertex)? as usize].body as usize;
+    Some(SingularPlace::at_vertex(mesh, body, vertex, Unbounded::Point))
 }
 
 /// The ends of a contact up to which bodies press with a pressure that has no bound, for each of its bodies: where a corner of one
