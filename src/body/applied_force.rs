@@ -3,7 +3,7 @@
 use super::node_positions::NodePositions;
 use super::{BodyPart, Load, LoadKind, PointLoad};
 use crate::element::{BadJacobian, by_order, edge_load, heat_load, triangle_load};
-use crate::geometry::Point;
+use crate::geometry::{Formula, Point};
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, Partition, lattice};
 
 /// Parts of a macro edge over which a formula is integrated at least, four points on each: a bump is seen from a fiftieth of the edge
@@ -58,7 +58,7 @@ pub fn applied_forces(
     for &triangle in partition.triangles_of(rank).iter().filter(|_| all_over) {
         let part = parts[mesh.triangles[triangle as usize].part as usize];
         heat_forces(mesh, triangle as usize, numbering, part, &mut add)?;
-        if part.force.iter().all(|formula| formula.as_constant() == Some(0.0)) {
+        if part.force.iter().all(Formula::is_zero) {
             continue;
         }
         let density = |points: &[Point; 6]| {
@@ -144,12 +144,17 @@ pub fn forces_on_edge(points: &[Point], intervals: usize, is_even: bool, tractio
 }
 
 impl LoadKind {
+    /// Its formulas: one, or one for each axis.
+    pub fn formulas(&self) -> &[Formula] {
+        match self {
+            Self::Pressure(pressure) => std::slice::from_ref(pressure),
+            Self::Traction(both) => both,
+        }
+    }
+
     /// Whether it is the same everywhere.
     pub fn is_even(&self) -> bool {
-        match self {
-            Self::Pressure(pressure) => pressure.as_constant().is_some(),
-            Self::Traction(both) => both.iter().all(|formula| formula.as_constant().is_some()),
-        }
+        self.formulas().iter().all(|formula| formula.as_constant().is_some())
     }
 
     /// Traction at a point with the given outward normal (force per length).

@@ -14,7 +14,7 @@ use super::Support;
 use super::mean_hold::{Anchor, MeanHold};
 use super::rigid::{MOTIONS, Motion, RigidSet};
 use crate::element::Plane;
-use crate::geometry::{Coordinates, Formula, Point, Rounded, cross};
+use crate::geometry::{AXES, Coordinates, Point, Rounded, cross};
 use crate::mesh::{EdgeNode, MacroMesh, Numbering};
 use nalgebra::Matrix2;
 use std::collections::HashMap;
@@ -183,7 +183,7 @@ fn hold_rigidly<'a>(mesh: &MacroMesh, numbering: &Numbering, set: &'a RigidSet, 
             }
         }
         let u = set.displacement(&motion, x);
-        for (direction, value) in [(Point::new(1.0, 0.0), u.x), (Point::new(0.0, 1.0), u.y)] {
+        for (direction, value) in AXES.into_iter().zip([u.x, u.y]) {
             add(known, HeldBy::Rigid(&set.key), direction, value, x)?;
         }
     }
@@ -226,13 +226,8 @@ pub(super) fn all_holds<'a>(mesh: &MacroMesh, numbering: &Numbering, supports: &
 
 /// Adds what a support says of both axes at a point.
 fn collect_axes<'a>(support: &'a Support, x: Point, known: &mut Vec<Hold<'a>>) -> Result<(), String> {
-    let axes: [(&Option<Formula>, Point); 2] = [(&support.ux, Point::new(1.0, 0.0)), (&support.uy, Point::new(0.0, 1.0))];
-    for (formula, direction) in axes {
-        if let Some(formula) = formula {
-            add(known, HeldBy::Support(&support.name), direction, formula.value(&[x.x, x.y]), x)?;
-        }
-    }
-    Ok(())
+    let mut axes = support.axes();
+    axes.try_for_each(|(formula, axis)| add(known, HeldBy::Support(&support.name), axis, formula.value(&[x.x, x.y]), x))
 }
 
 /// Adds a hold; normals of one support that nearly agree at a node become their mean.

@@ -14,11 +14,8 @@ use std::cell::RefCell;
 /// Words that begin with its key.
 pub fn check_loads(mesh: &MacroMesh, numbering: &Numbering, loads: &[Load]) -> Result<(), String> {
     for load in loads {
-        let (key, formulas) = match &load.kind {
-            LoadKind::Pressure(pressure) => ("pressure", std::slice::from_ref(pressure)),
-            LoadKind::Traction(traction) => ("traction", traction.as_slice()),
-        };
-        let looked_at = Looked::at(formulas);
+        let key = if matches!(load.kind, LoadKind::Pressure(_)) { "pressure" } else { "traction" };
+        let looked_at = Looked::at(load.kind.formulas());
         for small in mesh.edges_on(&load.on).flat_map(|edge| BoundaryEdge::all_of(mesh, edge, numbering)) {
             forces_on_edge(&small.points, numbering.level.intervals, load.kind.is_even(), |x, _| looked_at.point(x));
             looked_at.all_finite().map_err(|words| format!("load.{}.{key}: {words}", load.name))?;

@@ -5,7 +5,7 @@
 //! mean is as it was asked for, and a force that is spread all over it balances what drives it, so that the anchors carry nothing.
 
 use super::rigid::{Motion, rigid_displacement};
-use crate::geometry::{Point, cross};
+use crate::geometry::{AXES, Point, cross};
 use crate::mesh::MacroMesh;
 use nalgebra::DMatrix;
 use std::collections::HashSet;
@@ -15,9 +15,6 @@ const ENOUGH: f64 = 0.5;
 
 /// Directions closer than this (radians) are one: a thousandth of a shift across them would have to be told from nothing.
 const SAME: f64 = 1e-3;
-
-/// Directions along x and y.
-const AXES: [Point; 2] = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)];
 
 /// A body whose mean motion is held, on one mesh of it.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -25,7 +25,7 @@ pub use singular_place::{CHORDS, SingularPlace, Unbounded, singular_places};
 pub use springs::{SpringStiffness, Springs};
 
 use crate::element::{Heat, Plane, PlaneLaw};
-use crate::geometry::{Formula, Point};
+use crate::geometry::{AXES, Formula, Point};
 use crate::mesh::Spot;
 
 /// Linear elastic material, and what is zero across the plane.
@@ -99,7 +99,7 @@ impl BodyPart {
 
     /// Whether forces act all over it: a force per area, or heat.
     pub fn is_loaded(&self) -> bool {
-        self.heat.is_some() || self.force.iter().any(|formula| formula.as_constant() != Some(0.0))
+        self.heat.is_some() || self.force.iter().any(|formula| !formula.is_zero())
     }
 
     /// The formulas that are integrated over it.
@@ -140,6 +140,13 @@ pub struct Support {
     pub uy: Option<Formula>,
     /// Prescribed outward normal component; the tangent stays free.
     pub normal: Option<Formula>,
+}
+
+impl Support {
+    /// The axes along which it prescribes a component, with the formulas of these.
+    pub fn axes(&self) -> impl Iterator<Item = (&Formula, Point)> {
+        [&self.ux, &self.uy].into_iter().zip(AXES).filter_map(|(formula, axis)| Some((formula.as_ref()?, axis)))
+    }
 }
 
 /// Surface load on physical curves.

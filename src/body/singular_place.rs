@@ -148,10 +148,7 @@ fn edge_holds<'a>(mesh: &MacroMesh, supports: &'a [Support], rigid: &'a [RigidSe
             let hold = holds.entry(edge).or_default();
             hold.key = Some(("support.", &support.name));
             hold.normal |= support.normal.is_some();
-            for axis in [(&support.ux, Point::x()), (&support.uy, Point::y())]
-                .into_iter()
-                .filter_map(|(u, axis)| u.as_ref().map(|_| axis))
-            {
+            for (_, axis) in support.axes() {
                 // Along neither of both it holds a part of each.
                 hold.normal |= cross(along, axis).abs() > SAME;
                 hold.tangent |= along.dot(&axis).abs() > SAME;

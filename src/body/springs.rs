@@ -4,7 +4,7 @@
 //! straight boundaries for `k h/E` from 1e-6 to 1e6; on arcs 26 at 1e6, where a support is the better word.
 
 use crate::element::{Block, edge_shape};
-use crate::geometry::{Formula, Point, gauss_points};
+use crate::geometry::{AXES, Formula, Point, gauss_points};
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering, each_once};
 
 /// Gauss points on an element edge: exact for P2 and a stiffness of degree 3.
@@ -37,7 +37,7 @@ impl SpringStiffness {
         match self {
             Self::Normal(formula) => vec![(normal, value(formula))],
             Self::Axes(both) => {
-                let axes = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].into_iter().zip(both);
+                let axes = AXES.into_iter().zip(both);
                 axes.filter_map(|(axis, formula)| Some((axis, value(formula.as_ref()?)))).collect()
             }
         }

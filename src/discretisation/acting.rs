@@ -1,7 +1,6 @@
 //! Whether anything acts in a scene.
 
 use super::scene::Scene;
-use crate::body::LoadKind;
 use crate::contact::{GapChoice, Law, Pair, drawn_gap};
 use crate::geometry::Formula;
 use crate::mesh::Numbering;
@@ -23,14 +22,11 @@ impl Scene {
 }
 
 fn acts(formula: &Formula) -> bool {
-    formula.as_constant() != Some(0.0)
+    !formula.is_zero()
 }
 
 fn is_loaded(scene: &Scene) -> bool {
-    let by_load = scene.loads.iter().any(|load| match &load.kind {
-        LoadKind::Pressure(pressure) => acts(pressure),
-        LoadKind::Traction(traction) => traction.iter().any(acts),
-    });
+    let by_load = scene.loads.iter().flat_map(|load| load.kind.formulas()).any(acts);
     let at_points = scene.point_loads.iter().any(|load| load.force.iter().any(acts));
     let mut parts = scene.bodies.iter().flat_map(|body| &body.parts);
     let within = parts.any(|part| {

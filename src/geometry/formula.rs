@@ -83,6 +83,11 @@ impl Formula {
         }
     }
 
+    /// Whether it is zero everywhere, and no variable occurs in it.
+    pub fn is_zero(&self) -> bool {
+        self.as_constant() == Some(0.0)
+    }
+
     /// Value at the given variables, in the order of `parse`. NaN or infinite where the formula is not defined.
     ///
     /// # Panics

@@ -20,6 +20,9 @@ pub use spline::{FitSample, Spline, chord_lengths};
 /// A point, or a vector, of the plane (length).
 pub type Point = nalgebra::Vector2<f64>;
 
+/// Directions along x and y.
+pub const AXES: [Point; 2] = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)];
+
 /// Turns a vector a quarter turn clockwise: the tangent of a counter-clockwise boundary becomes its outward normal.
 pub fn turn_right(v: Point) -> Point {
     Point::new(v.y, -v.x)

@@ -2,7 +2,7 @@
 
 use crate::discretisation::{Discretisation, Element, Field, SystemError, agreed};
 use crate::element::{Heat, PlaneLaw, SIX_POINTS, by_order, heated_stress, shape, stress};
-use crate::geometry::Point;
+use crate::geometry::{AXES, Point};
 use crate::mesh::Region;
 use crate::mesh::lattice::Triangle;
 use crate::petsc::Session;
@@ -164,7 +164,7 @@ fn add_stress_forces<const N: usize>(
     let pointing = mean(&u.on(&element))?;
     for (k, node) in element.nodes.into_iter().enumerate() {
         let sum = forces.at_mut(node);
-        for (c, axis) in [Point::x(), Point::y()].into_iter().enumerate() {
+        for (c, axis) in AXES.into_iter().enumerate() {
             let mut moved = [Point::zeros(); N];
             moved[k] = axis;
             let found = mean(&moved)?;

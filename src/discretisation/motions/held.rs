@@ -13,7 +13,7 @@ use crate::discretisation::levels::Discretisation;
 use crate::discretisation::motions::free_motion::FreeMotion;
 use crate::discretisation::scene::Scene;
 use crate::element::{Order, Plane};
-use crate::geometry::Point;
+use crate::geometry::{AXES, Point};
 use crate::mesh::{Level, MacroMesh, Numbering, SmoothNormals, each_once};
 use crate::petsc::Session;
 use std::collections::{HashMap, HashSet};
@@ -326,7 +326,7 @@ pub fn supported(scene: &Scene, numbering: &Numbering) -> Vec<Held> {
             continue;
         }
         let Some(constraint) = constraints.get(numbering.vertex(vertex as u32)) else { continue };
-        for (k, axis) in [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].into_iter().enumerate() {
+        for (k, axis) in AXES.into_iter().enumerate() {
             if constraint.fixed[k] {
                 let direction = constraint.to_global(axis);
                 all.push(Held { piece: piece[vertex], vertex: vertex as u32, place, direction, value: constraint.value[k] });

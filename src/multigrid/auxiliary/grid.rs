@@ -1,9 +1,9 @@
 //! The grid that the trees of all bodies are cut from, and the nodes of the mesh on it.
 
-use super::level::{AXES, LevelNode, LevelNodes};
+use super::level::{LevelNode, LevelNodes};
 use super::tree::{Roots, Tree, WantedWidth};
 use crate::discretisation::Space;
-use crate::geometry::{Point, bounds};
+use crate::geometry::{AXES, Point, bounds};
 use crate::mesh::MacroMesh;
 
 /// Width of the cells of the finest trees, in edges of the mesh: with 1.5 and 2 as many iterations, but dearer ones.

@@ -2,7 +2,7 @@
 
 use super::tree::{Tree, Vertex};
 use crate::element::Block;
-use crate::geometry::Point;
+use crate::geometry::{AXES, Point};
 use crate::mesh::middle_of_group;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
@@ -10,9 +10,6 @@ use std::ops::Range;
 
 /// A component of a coarse node is left out if the squares of its values at all finer nodes add up to no more than this.
 const NOTHING: f64 = 1e-8;
-
-/// The axes of most nodes.
-pub const AXES: [Point; 2] = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)];
 
 /// A node of a level: of the mesh, or a vertex of a tree.
 #[derive(Clone, Debug)]
