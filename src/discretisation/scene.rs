@@ -3,7 +3,7 @@
 use crate::body::{Body, BodyPart, Load, MeanHold, PointLoad, RigidNodes, RigidSet, Springs, Support};
 use crate::contact::{Extent, Pair};
 use crate::element::{Heat, Order, PlaneLaw};
-use crate::geometry::Point;
+use crate::geometry::{Point, bounds};
 use crate::mesh::{BodyPiece, Graph, MacroMesh, Partition};
 use crate::petsc::{self, Session, partition};
 use std::rc::Rc;
@@ -141,10 +141,7 @@ impl Scene {
         let pairs = self.pairs.iter().filter(|pair| pair.between.iter().any(is_own));
         let faced = pairs.flat_map(|pair| pair.between.iter().filter(|name| !is_own(name))).flat_map(edges);
         let ends = faced.flat_map(|&edge| self.mesh.edges[edge as usize].vertices).map(|v| self.mesh.vertices[v as usize]);
-        ends.fold(None, |found, x| {
-            let [low, high] = found.unwrap_or([x, x]);
-            Some([low.inf(&x), high.sup(&x)])
-        })
+        Some(bounds(ends))
     }
 }
 

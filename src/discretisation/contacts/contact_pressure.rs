@@ -135,15 +135,9 @@ impl<'a> ContactPressure<'a> {
     pub fn middle_error(&self, exact: &Formula) -> Option<f64> {
         let boundary = &self.contact.boundary;
         let error = |zone: &Zone| {
-            let mut sums = [0.0; 2];
             let points = boundary.gauss_on(zone.segments.clone(), 8);
-            for (k, z, _, length) in points.filter(|(_, _, arc, _)| zone.has_in_its_middle(*arc)) {
-                let x = boundary.point(boundary.parameter_on(k, z));
-                let wanted = exact.value(&[x.x, x.y]);
-                sums[0] += length * (self.value(k, z) - wanted).powi(2);
-                sums[1] += length * wanted * wanted;
-            }
-            (sums[0] / sums[1]).sqrt()
+            let middle = points.filter(|(_, _, arc, _)| zone.has_in_its_middle(*arc));
+            self.mean_error(exact, middle.map(|(k, z, _, length)| (k, z, boundary.parameter_on(k, z), length)))
         };
         let zones = self.zones();
         self.counting(&zones, &zones).map(error).reduce(f64::max)
@@ -159,10 +153,14 @@ impl<'a> ContactPressure<'a> {
 
     /// Relative L2 error on Γ_C against a formula of `x, y`.
     pub fn error(&self, exact: &Formula) -> f64 {
-        let boundary = &self.contact.boundary;
+        self.mean_error(exact, self.contact.boundary.gauss_by_parameter(8))
+    }
+
+    /// The same over some points, each by its segment, its fraction of that, its parameter and its length.
+    fn mean_error(&self, exact: &Formula, points: impl Iterator<Item = (usize, f64, f64, f64)>) -> f64 {
         let mut sums = [0.0; 2];
-        for (k, z, t, length) in boundary.gauss_by_parameter(8) {
-            let x = boundary.point(t);
+        for (k, z, t, length) in points {
+            let x = self.contact.boundary.point(t);
             let wanted = exact.value(&[x.x, x.y]);
             sums[0] += length * (self.value(k, z) - wanted).powi(2);
             sums[1] += length * wanted * wanted;
