@@ -112,8 +112,7 @@ impl Discretisation {
 
     /// The contact of a multiplier.
     pub fn contact_of(&self, multiplier: usize) -> &Contact {
-        let at = self.contacts.partition_point(|contact| contact.first <= multiplier);
-        &self.contacts[at - 1]
+        Contact::of_multiplier(&self.contacts, multiplier)
     }
 
     /// The jump terms of all contacts.

@@ -211,7 +211,7 @@ fn pressure_error(contact: &Contact, found: &FiniteMotion, gap: &GapError) -> f6
 /// contact, or beside the `farthest` displacement of all.
 pub fn growth_by_gap(bodies: [&Deformation; 2], points: &[TracePoint], farthest: f64) -> Option<f64> {
     let growth: f64 = bodies.iter().map(|body| 0.5 * body.rotation * body.rotation * body.radius).sum();
-    let moved = points.iter().map(|point| point.displacement[0].abs().max(point.displacement[1].abs())).fold(0.0, f64::max);
+    let moved = points.iter().map(TracePoint::largest_displacement).fold(0.0, f64::max);
     let smallest = points.iter().map(|point| point.gap).filter(|gap| gap.is_finite()).reduce(f64::min)?;
     (growth > ROUNDING * moved && growth > NO_MOTION * farthest).then(|| growth / smallest.max(NO_GAP * growth))
 }

@@ -54,22 +54,17 @@ pub fn missing_beyond(contact: &Contact, beyond: f64, force: f64) -> Option<f64>
 /// much at most (length).
 pub fn unresolved_force(contact: &Contact, points: &[TracePoint], moved: f64) -> f64 {
     let arcs = contact.boundary.arcs();
-    let left = (LEFT * points.iter().map(largest).fold(0.0, f64::max)).max(ROUNDING * moved);
+    let left = (LEFT * points.iter().map(TracePoint::largest_displacement).fold(0.0, f64::max)).max(ROUNDING * moved);
     // `max` passes over points that a body has no part in.
     let depth = |p: &TracePoint| (-p.gap - left).max(0.0);
     let part = |ends: &[TracePoint]| {
         let [from, to] = [ends[0].arc, ends[1].arc];
-        let segment = arcs.partition_point(|&s| s <= 0.5 * (from + to)).clamp(1, arcs.len() - 1);
+        let segment = contact.segment_at(0.5 * (from + to));
         let [a, b] = [0, 1].map(|k: usize| depth(&ends[k]) * contact.boundary.width_at(ends[k].x));
         let mean = 0.5 * (a + b);
-        contact.moduli[segment - 1] * mean * (to - from) / (arcs[segment] - arcs[segment - 1])
+        contact.moduli[segment] * mean * (to - from) / (arcs[segment + 1] - arcs[segment])
     };
     points.windows(2).map(part).sum::<f64>()
-}
-
-/// The larger one of both normal displacements.
-fn largest(point: &TracePoint) -> f64 {
-    point.displacement[0].abs().max(point.displacement[1].abs())
 }
 
 #[cfg(test)]

@@ -40,6 +40,11 @@ pub struct TracePoint {
 }
 
 impl TracePoint {
+    /// The larger one of both normal displacements, by magnitude (length).
+    pub fn largest_displacement(&self) -> f64 {
+        self.displacement[0].abs().max(self.displacement[1].abs())
+    }
+
     /// Whether both bodies have a corresponding point here.
     pub fn is_complete(&self) -> bool {
         self.displacement.iter().all(|u| u.is_finite())

@@ -77,10 +77,20 @@ impl Contact {
         [first <= self.limits[0], last >= self.limits[1]]
     }
 
+    /// The contact of a multiplier, of all contacts.
+    pub fn of_multiplier(all: &[Self], multiplier: usize) -> &Self {
+        &all[all.partition_point(|contact| contact.first <= multiplier) - 1]
+    }
+
+    /// The segment at an arc length of Γ_C.
+    pub fn segment_at(&self, arc: f64) -> usize {
+        let arcs = self.boundary.arcs();
+        arcs.partition_point(|&s| s <= arc).clamp(1, arcs.len() - 1) - 1
+    }
+
     /// `E_c` at an arc length of Γ_C (stress).
     pub fn modulus_at(&self, arc: f64) -> f64 {
-        let arcs = self.boundary.arcs();
-        self.moduli[arcs.partition_point(|&s| s <= arc).clamp(1, arcs.len() - 1) - 1]
+        self.moduli[self.segment_at(arc)]
     }
 
     /// Places every contact of the scene on the finest level, on the undeformed bodies.

@@ -165,10 +165,9 @@ impl Entries {
         let mut rows = vec![Vec::new(); contacts.last().map_or(0, |contact| contact.range().end)];
         for (key, value) in self.keys.chunks_exact(4).zip(self.values.chunks_exact(2)) {
             let (row, k) = (key[0] as usize, key[1] as usize);
-            let contact = &contacts[contacts.partition_point(|contact| contact.first <= row) - 1];
             rows[row].push(Coupled {
                 node: EdgeNode { edge: key[2] as u32, position: key[3] as u32 },
-                body: contact.bodies[k],
+                body: Contact::of_multiplier(contacts, row).bodies[k],
                 side: [Side::First, Side::Second][k],
                 value: Point::new(value[0], value[1]),
             });

@@ -58,7 +58,7 @@ impl Augmentation {
 
     fn block(&self, group: usize, contacts: &[Contact], active: &[bool]) -> Option<DiagonalBlock> {
         let first = self.members[group].start;
-        let contact = &contacts[contacts.partition_point(|contact| contact.first <= first) - 1];
+        let contact = Contact::of_multiplier(contacts, first);
         let own = contact.multipliers.group_of(first - contact.first);
         let modulus = contact.multiplier_moduli[first - contact.first];
         let mut block = contact.multipliers.augmentation(own, modulus, &active[contact.range()])?;
