@@ -5,7 +5,7 @@ use crate::multigrid::{Interpolation, LatticeOperator, Stiffness};
 use crate::petsc::{Matrix, Session, Vector};
 use crate::system::choice::SolverChoice;
 use crate::system::rigid_border::RigidBorder;
-use crate::system::saddle_point::SaddlePoint;
+use crate::system::saddle_point::{BorderValues, SaddlePoint};
 use crate::system::solver::{LinearEnding, LinearSolve, LinearSolver, Preconditioning, Residual, inf_sup};
 use std::cell::{Cell, OnceCell};
 use std::rc::Rc;
@@ -116,16 +116,14 @@ impl<'a> System<'a> {
     /// Takes over the unknowns of a start, and its active set. **Collective**
     pub fn begin(&mut self, start: &Start) -> Result<(), SystemError> {
         self.residual.take();
-        let Some(border) = &self.border else {
-            put(&self.blocks, self.problem.finest(), start, &mut self.unknowns);
-            return self.set_active(&start.active);
-        };
-        self.motion = border.motion_of(self.problem, &start.displacement, &self.session);
-        let back: Vec<f64> = self.motion.iter().map(|component| -component).collect();
-        let mut displacement = start.displacement.clone();
-        border.displace(self.problem.finest(), &back, &mut displacement);
-        let (pressures, active) = (start.pressures.clone(), start.active.clone());
-        put(&self.blocks, self.problem.finest(), &Start { displacement, pressures, active }, &mut self.unknowns);
+        let mut at_rest = None;
+        if let Some(border) = &self.border {
+            self.motion = border.motion_of(self.problem, &start.displacement, &self.session);
+            let back: Vec<f64> = self.motion.iter().map(|component| -component).collect();
+            border.displace(self.problem.finest(), &back, at_rest.insert(start.displacement.clone()));
+        }
+        let displacement = at_rest.as_ref().unwrap_or(&start.displacement);
+        put(&self.blocks, self.problem.finest(), displacement, (&start.pressures, &start.active), &mut self.unknowns);
         self.set_active(&start.active)
     }
 
@@ -151,7 +149,7 @@ impl<'a> System<'a> {
     pub fn response(&mut self, load: &[f64], gap: &[f64], tolerance: f64) -> Result<Vec<f64>, SystemError> {
         self.bring_solver_up_to_date()?;
         let loads = self.border.as_ref().map(|border| border.loads_of(self.space(), load, &self.session)).unwrap_or_default();
-        let given = [loads, vec![0.0; self.motion.len()]];
+        let given = BorderValues { motion: loads, mean: vec![0.0; self.motion.len()] };
         let b = self.blocks.right_hand_side_of(|values| values.copy_from_slice(load), gap, &given, self.space())?;
         let mut x = self.unknowns.duplicate()?;
         x.set(0.0)?;
@@ -195,10 +193,9 @@ impl<'a> System<'a> {
     }
 
     /// Residual that displacements alone would leave. **Collective**
-    pub fn residual_of_displacement(&self, displacement: Vec<f64>) -> Result<Residual, SystemError> {
+    pub fn residual_of_displacement(&self, displacement: &[f64]) -> Result<Residual, SystemError> {
         let mut x = self.unknowns.duplicate()?;
-        let (pressures, active) = (vec![0.0; self.active().len()], self.active().to_vec());
-        put(&self.blocks, self.space(), &Start { displacement, pressures, active }, &mut x);
+        put(&self.blocks, self.space(), displacement, (&vec![0.0; self.active().len()], self.active()), &mut x);
         Ok(self.residual_of(&x)?.1)
     }
 
@@ -289,13 +286,14 @@ impl<'a> System<'a> {
     }
 }
 
-/// Puts a start into unknowns; prescribed components are no unknowns, and open multipliers begin from zero.
-fn put(blocks: &SaddlePoint, space: &Space, start: &Start, x: &mut Vector) {
+/// Puts displacements, and the pressures of what is active, into unknowns; prescribed components are no unknowns, and open multipliers
+/// begin from zero.
+fn put(blocks: &SaddlePoint, space: &Space, displacement: &[f64], (pressures, active): (&[f64], &[bool]), x: &mut Vector) {
     let unknowns = space.local_unknowns();
     let mut values = x.values_mut();
-    values[..unknowns].copy_from_slice(&start.displacement);
+    values[..unknowns].copy_from_slice(displacement);
     space.fixed().for_each(|(at, _)| values[at] = 0.0);
     for (at, &i) in blocks.multipliers.own.iter().enumerate() {
-        values[unknowns + at] = if start.active[i] { start.pressures[i] / blocks.multipliers.scale[i] } else { 0.0 };
+        values[unknowns + at] = if active[i] { pressures[i] / blocks.multipliers.scale[i] } else { 0.0 };
     }
 }

@@ -130,9 +130,9 @@ impl BorderBlocks {
         self.subtract_moved(&self.pivot(&self.sums(x)), y);
     }
 
-    /// `h` from loads, means and gaps of all multipliers.
-    fn right_hand_side(&self, loads: &[f64], asked: &[f64], gap: &[f64]) -> BorderValues {
-        let mut h = BorderValues { motion: loads.to_vec(), mean: asked.to_vec() };
+    /// `h` from what is given, loads and means, and gaps of all multipliers.
+    fn right_hand_side(&self, given: &BorderValues, gap: &[f64]) -> BorderValues {
+        let mut h = given.clone();
         for (row, weighted) in self.weighted_gaps().iter().enumerate() {
             weighted.iter().for_each(|&(j, weight)| h.motion[j] += weight * gap[row]);
         }
@@ -140,22 +140,20 @@ impl BorderBlocks {
     }
 
     /// Loads and means of the scene.
-    pub fn given(&self) -> [Vec<f64>; 2] {
-        let components = &self.border.components;
-        [
-            components.iter().map(|component| component.load).collect(),
-            components.iter().map(|component| component.asked).collect(),
-        ]
+    pub fn given(&self) -> BorderValues {
+        let components = self.border.components.iter();
+        let (motion, mean) = components.map(|component| (component.load, component.asked)).unzip();
+        BorderValues { motion, mean }
     }
 
     /// `b - V E⁻¹ h`.
-    pub fn subtract_given(&self, [loads, asked]: &[Vec<f64>; 2], gap: &[f64], b: &mut [f64]) {
-        self.subtract_moved(&self.pivot(&self.right_hand_side(loads, asked, gap)), b);
+    pub fn subtract_given(&self, given: &BorderValues, gap: &[f64], b: &mut [f64]) {
+        self.subtract_moved(&self.pivot(&self.right_hand_side(given, gap)), b);
     }
 
     /// `q = E⁻¹ (h - Wᵀ x)`, where rigid sets cannot tell as it was `before`. **Collective**
-    pub fn motion(&self, x: &[f64], [loads, asked]: &[Vec<f64>; 2], gap: &[f64], before: &[f64]) -> Vec<f64> {
-        let (mut left, sums) = (self.right_hand_side(loads, asked, gap), self.sums(x));
+    pub fn motion(&self, x: &[f64], given: &BorderValues, gap: &[f64], before: &[f64]) -> Vec<f64> {
+        let (mut left, sums) = (self.right_hand_side(given, gap), self.sums(x));
         left.motion.iter_mut().zip(sums.motion).for_each(|(left, sum)| *left -= sum);
         let mean = |component: &RigidComponent| component.mean.as_ref().map_or(0.0, |mean| dot(mean, &x[..self.unknowns]));
         let means: Vec<f64> = self.session.sum(self.border.components.iter().map(mean).collect());

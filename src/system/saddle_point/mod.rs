@@ -20,6 +20,7 @@ mod load;
 mod multiplier_blocks;
 
 pub use border_blocks::{BorderBlocks, BorderUnknown};
+pub use elimination::BorderValues;
 pub use multiplier_blocks::SchurPattern;
 
 use crate::contact::DiagonalBlock;
@@ -153,7 +154,7 @@ impl SaddlePoint {
 
     /// How far what moves rigidly has moved, beside these unknowns, for what [`Self::right_hand_side_of`] takes, with the gaps of the
     /// scene or others; where nothing tells, as `before`. **Collective**
-    pub fn motion(&self, x: &Vector, given: &[Vec<f64>; 2], gap: Option<&[f64]>, before: &[f64]) -> Vec<f64> {
+    pub fn motion(&self, x: &Vector, given: &BorderValues, gap: Option<&[f64]>, before: &[f64]) -> Vec<f64> {
         let gap = gap.unwrap_or(&self.gap);
         self.border.as_ref().map_or_else(Vec::new, |border| border.borrow().motion(&x.values(), given, gap, before))
     }
@@ -216,7 +217,7 @@ impl SaddlePoint {
     }
 
     /// Loads and means of unknown rigid motions, as the scene asks for them.
-    pub fn given(&self) -> [Vec<f64>; 2] {
+    pub fn given(&self) -> BorderValues {
         self.border.as_ref().map_or_else(Default::default, |border| border.borrow().given())
     }
 
@@ -231,7 +232,7 @@ impl SaddlePoint {
         &self,
         load: impl FnOnce(&mut [f64]),
         gap: &[f64],
-        given: &[Vec<f64>; 2],
+        given: &BorderValues,
         space: &Space,
     ) -> Result<Vector, SystemError> {
         let (_, mut b) = self.nest.create_vectors()?;
