@@ -3,7 +3,7 @@
 use super::block_triangle::BlockTriangle;
 use super::bordered::Bordered;
 use super::ladder::Rung;
-use super::options::{FACTOR, FIELD_SPLIT, MOST_REDUNDANT, Options, REDUNDANT_FACTOR, is_split_changed, lambda_options};
+use super::options::{FACTOR, FIELD_SPLIT, Options, REDUNDANT_FACTOR, is_split_changed, lambda_options, redundant_factor};
 use super::preconditioning::Preconditioning;
 use super::prepared::{Prepared, set_operators};
 use crate::discretisation::{Form, SystemError};
@@ -54,23 +54,22 @@ pub fn field_split(
     };
     let (_replaced, bordered) = replace_action(&krylov, block_triangle, system, Form::Augmented, session)?;
     let kind = preconditioner.field_split_solvers()?[0].preconditioner().kind();
-    let own = kind == "shell" || is_factor(&kind) && preconditioning == Preconditioning::Factor;
-    let name = if own { name(preconditioning) } else { format!("fieldsplit ({kind})") };
+    // A factor is made by all ranks together, or by each for itself.
+    let is_factor = preconditioning == Preconditioning::Factor && ["cholesky", "redundant"].contains(&kind.as_str());
+    let name = if is_factor || kind == "shell" { name(preconditioning) } else { format!("fieldsplit ({kind})") };
     Ok(Prepared { krylov, _replaced, bordered, levels, name })
 }
 
 /// Sets the options of the field split, where the user has set none.
 fn set_options(system: &SaddlePoint, Rung { method, preconditioning, .. }: Rung, session: &Session) -> Result<(), SystemError> {
     let lambda = lambda_options(system.multipliers.pattern, session.size());
-    let unknowns = system.finest_stiffness().operator().size().0;
     let method = [("-ksp_type", method)];
-    let is_redundant = preconditioning == Preconditioning::Factor && session.size() > 1 && unknowns <= MOST_REDUNDANT;
-    let factor: Options = if is_redundant { REDUNDANT_FACTOR } else { &[] };
     // A factor before leaves its package behind, which goes with nothing else.
     for (name, _) in FACTOR.iter().chain(REDUNDANT_FACTOR) {
         petsc::options::clear(session, name)?;
     }
-    let whole = if preconditioning == Preconditioning::Factor { FACTOR } else { &[] };
+    let is_factor = preconditioning == Preconditioning::Factor;
+    let (whole, factor): (Options, Options) = if is_factor { (FACTOR, redundant_factor(system, session)) } else { (&[], &[]) };
     for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(whole).chain(&method).chain(factor) {
         petsc::options::set_default(session, name, value)?;
     }
@@ -117,11 +116,6 @@ pub(super) fn replace_action(
         Ok(Box::new(action))
     })?;
     Ok((Some(replaced), bordered))
-}
-
-/// Whether this is the preconditioner that factorises, by all ranks together or by each for itself.
-fn is_factor(kind: &str) -> bool {
-    kind == "cholesky" || kind == "redundant"
 }
 
 /// The solver with a preconditioning, in words.

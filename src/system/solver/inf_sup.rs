@@ -3,7 +3,7 @@
 //! It has no dimension, and is right for floating bodies, too. With an inexact inverse of `K_γ` the figure would be that of the
 //! preconditioner; hence the factor, and hence the limit to few unknowns.
 
-use super::options::{FACTOR, FIELD_SPLIT, MOST_REDUNDANT, Options, REDUNDANT_FACTOR};
+use super::options::{FACTOR, FIELD_SPLIT, Options, redundant_factor};
 use crate::discretisation::{Contact, SystemError};
 use crate::petsc::{Krylov, Session, options};
 use crate::system::saddle_point::SaddlePoint;
@@ -28,11 +28,8 @@ const OWN: Options = &[("-ksp_type", "gmres"), ("-fieldsplit_lambda_pc_type", "r
 /// # Errors
 /// PETSc's own.
 pub fn inf_sup(system: &SaddlePoint, contacts: &[Contact], session: &Session) -> Result<Vec<Option<f64>>, SystemError> {
-    let unknowns = system.finest_stiffness().operator().size().0;
-    let is_redundant = session.size() > 1 && unknowns <= MOST_REDUNDANT;
-    // Where unknowns are few, each rank makes the factor for itself: the constant has the same digits in each run then.
-    let redundant: Options = if is_redundant { REDUNDANT_FACTOR } else { &[] };
-    for (name, value) in FIELD_SPLIT.iter().chain(OWN).chain(FACTOR).chain(redundant) {
+    // Where each rank makes the factor for itself, the constant has the same digits in each run.
+    for (name, value) in FIELD_SPLIT.iter().chain(OWN).chain(FACTOR).chain(redundant_factor(system, session)) {
         options::set_default(session, &name.replacen('-', &format!("-{PREFIX}"), 1), value)?;
     }
     let krylov = Krylov::new(session, PREFIX)?;

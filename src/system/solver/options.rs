@@ -2,7 +2,7 @@
 
 use crate::multigrid::takes_another_preconditioner;
 use crate::petsc::{Session, options};
-use crate::system::saddle_point::SchurPattern;
+use crate::system::saddle_point::{SaddlePoint, SchurPattern};
 use crate::system::solver::ladder::Chosen;
 
 /// Names and values of PETSc options.
@@ -42,7 +42,7 @@ pub(super) fn is_split_changed(session: &Session) -> bool {
 pub(super) const FACTOR: Options = &[("-fieldsplit_u_pc_type", "cholesky"), ("-fieldsplit_u_pc_factor_mat_solver_type", "mumps")];
 
 /// Unknowns up to which a factor is made by every rank for itself.
-pub(super) const MOST_REDUNDANT: usize = 10_000;
+const MOST_REDUNDANT: usize = 10_000;
 
 /// A factor of few unknowns by every rank for itself: one that ranks make together adds in the order in which their messages
 /// come, so that its last digits differ from run to run.
@@ -51,6 +51,12 @@ pub(super) const REDUNDANT_FACTOR: Options = &[
     ("-fieldsplit_u_redundant_pc_type", "cholesky"),
     ("-fieldsplit_u_redundant_pc_factor_mat_solver_type", "mumps"),
 ];
+
+/// Options by which every rank makes a factor for itself, where unknowns are few and ranks several; none elsewhere.
+pub(super) fn redundant_factor(system: &SaddlePoint, session: &Session) -> Options {
+    let unknowns = system.finest_stiffness().operator().size().0;
+    if session.size() > 1 && unknowns <= MOST_REDUNDANT { REDUNDANT_FACTOR } else { &[] }
+}
 
 /// The exact inverse of `S`, for each of its patterns.
 pub(super) fn lambda_options(pattern: SchurPattern, ranks: usize) -> Options {
