@@ -1,7 +1,7 @@
 //! Stiffness of one macro triangle at one level, row by row of its lattice.
 
 use super::node_positions::{NodePositions, positions, positions_of_one, with_midsides};
-use crate::element::{BadJacobian, Block, Order, PlaneLaw, stiffness};
+use crate::element::{BadJacobian, Block, Order, PlaneLaw, block, stiffness};
 use crate::mesh::{Level, MacroMesh, Shapes, lattice};
 
 /// Steps from a node to the nodes that share a triangle with it; those outside the lattice do not exist.
@@ -146,14 +146,9 @@ impl MacroStiffness {
     fn add<const N: usize>(&mut self, nodes: &[(usize, usize); N], k: &[[Block; N]; N]) {
         for (a, row) in nodes.iter().zip(k) {
             let Some(start) = self.start(a.0, a.1) else { continue };
-            for (b, block) in nodes.iter().zip(row) {
+            for (b, coupling) in nodes.iter().zip(row) {
                 let slot = self.slot(b.0 as isize - a.0 as isize, b.1 as isize - a.1 as isize);
-                let sum = &mut self.rows[start + slot];
-                for i in 0..2 {
-                    for j in 0..2 {
-                        sum[i][j] += block[i][j];
-                    }
-                }
+                block::add(&mut self.rows[start + slot], coupling);
             }
         }
     }

@@ -4,9 +4,6 @@ use super::shape::{shape, slopes};
 use crate::geometry::{Coordinates, Point};
 use nalgebra::Matrix2;
 
-/// Coupling of two nodes: `[row component][column component]`.
-pub type Block = [[f64; 2]; 2];
-
 /// A triangle whose map from the reference triangle folds over.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("the triangle around {} is turned inside out (Jacobian {jacobian:.3e})", Coordinates(*middle))]

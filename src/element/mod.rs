@@ -1,5 +1,6 @@
 //! Local kernels: shape functions, stiffness, loads. They return values; callers insert them.
 
+pub mod block;
 mod load;
 mod map;
 mod measure;
@@ -9,14 +10,15 @@ mod revolution;
 mod shape;
 mod stiffness;
 
+pub use block::{Block, times};
 pub use load::{edge_load, heat_load, triangle_load};
-pub use map::{BadJacobian, Block, jacobian, place_of};
+pub use map::{BadJacobian, jacobian, place_of};
 pub use measure::{MEASURE_NAMES, MEASURES, StressMeasure};
 pub use nodal_stress::{corner_slopes, nodal_stresses, straight_stresses};
 pub use plane_law::{Heat, Plane, PlaneLaw, Strain, von_mises};
 pub use shape::{edge_shape, edge_slope, shape, slopes};
 pub use stiffness::{
-    Rule, SIX_POINTS, check_map, energies, heated_stress, internal_forces, six_points, stiffness, strain, stress, times,
+    Rule, SIX_POINTS, check_map, energies, heated_stress, internal_forces, six_points, stiffness, strain, stress,
 };
 
 /// A function of triangles with as many nodes as an order has, called for it: `by_order!(order, f(x))` is `f::<3>(x)` for P1, and

@@ -7,7 +7,8 @@
 //! nor have those of a node off the axis where two corners lie on it. Entries of the radial displacement of nodes on the axis are
 //! finite and mean nothing: it is held to zero.
 
-use super::map::{BadJacobian, Block, jacobian, place_of};
+use super::block::Block;
+use super::map::{BadJacobian, jacobian, place_of};
 use super::plane_law::PlaneLaw;
 use super::shape::shape;
 use crate::geometry::{Point, gauss_points};

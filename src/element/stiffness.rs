@@ -1,6 +1,7 @@
 //! Stiffness and stress of one triangle, straight or isoparametric.
 
-use super::map::{BadJacobian, Block, TriangleMap, jacobian, place_of};
+use super::block::{Block, times};
+use super::map::{BadJacobian, TriangleMap, jacobian, place_of};
 use super::plane_law::{Heat, Plane, PlaneLaw, Strain};
 use super::revolution;
 use crate::geometry::Point;
@@ -128,11 +129,6 @@ pub fn internal_forces<const N: usize>(
         }
     }
     Ok(forces)
-}
-
-/// Product of a block with a vector.
-pub fn times(block: &Block, v: &Point) -> Point {
-    Point::new(block[0][0] * v.x + block[0][1] * v.y, block[1][0] * v.x + block[1][1] * v.y)
 }
 
 /// Strain of the nodal displacements `u` at barycentric coordinates `l`, and the Jacobian determinant there.

@@ -2,6 +2,7 @@
 
 use super::level::Coarsening;
 use crate::element::Block;
+use crate::element::block::{product, transpose};
 use crate::mesh::Lists;
 use crate::multigrid::stiffness::{LatticeOperator, StoredRows};
 use std::rc::Rc;
@@ -109,12 +110,10 @@ impl KnownStep {
         let [of_row, of_column] = [row, column].map(|node| self.frame_of[node]);
         let mut block = *block;
         if of_column != NONE {
-            let frame = self.frames[of_column as usize];
-            block = block.map(|a| [0, 1].map(|k| a[0] * frame[0][k] + a[1] * frame[1][k]));
+            block = product(&block, &self.frames[of_column as usize]);
         }
         if of_row != NONE {
-            let frame = self.frames[of_row as usize];
-            block = [0, 1].map(|k| [0, 1].map(|b| frame[0][k] * block[0][b] + frame[1][k] * block[1][b]));
+            block = product(&transpose(&self.frames[of_row as usize]), &block);
         }
         block
     }

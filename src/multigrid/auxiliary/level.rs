@@ -2,6 +2,7 @@
 
 use super::tree::{Tree, Vertex};
 use crate::element::Block;
+use crate::element::block::IDENTITY;
 use crate::geometry::{AXES, Point};
 use crate::mesh::middle_of_group;
 use rustc_hash::FxHashMap;
@@ -128,7 +129,7 @@ impl Coarsening {
         if frame.is_none() && free == [true; 2] {
             return None;
         }
-        let frame = frame.copied().unwrap_or([[1.0, 0.0], [0.0, 1.0]]);
+        let frame = frame.copied().unwrap_or(IDENTITY);
         Some(frame.map(|row| [0, 1].map(|k| if free[k] { row[k] } else { 0.0 })))
     }
 
@@ -137,7 +138,7 @@ impl Coarsening {
     fn leave_out(&mut self, fine: &LevelNodes) {
         let mut squares = vec![[0.0; 2]; self.coarse.all.len()];
         for at in 0..fine.all.len() {
-            let frame = self.frame(at).copied().unwrap_or([[1.0, 0.0], [0.0, 1.0]]);
+            let frame = self.frame(at).copied().unwrap_or(IDENTITY);
             for (number, value) in self.row(at) {
                 for axis in frame {
                     (0..2).for_each(|k| squares[number as usize][k] += (value * axis[k]).powi(2));

@@ -2,6 +2,7 @@
 
 use crate::discretisation::{Scene, Space};
 use crate::element::Block;
+use crate::element::block::IDENTITY;
 use crate::mesh::lattice::{self, Place};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -23,7 +24,7 @@ pub struct Parentage {
 impl Parentage {
     /// Of the whole of it, times the share.
     pub fn block(&self) -> Block {
-        self.turned.unwrap_or([[1.0, 0.0], [0.0, 1.0]]).map(|row| row.map(|value| self.weight * value))
+        self.turned.unwrap_or(IDENTITY).map(|row| row.map(|value| self.weight * value))
     }
 }
 

@@ -59,7 +59,3 @@ impl<L: Lanes> Sum<L> {
         lanes.add(self.same, lanes.turned(self.other))
     }
 }
-
-pub fn product(a: &Block, b: &Block) -> Block {
-    a.map(|row| [0, 1].map(|j| row[0] * b[0][j] + row[1] * b[1][j]))
-}

@@ -53,28 +53,3 @@ fn couplings(stiffness: &MacroStiffness, i: usize, j: usize) -> Vec<(Step, Block
     all.sort_by_key(|&(step, _)| step != (0, 0));
     all
 }
-
-/// Adds a block to another one.
-#[inline(always)]
-pub fn add(sum: &mut Block, block: &Block) {
-    for a in 0..2 {
-        for b in 0..2 {
-            sum[a][b] += block[a][b];
-        }
-    }
-}
-
-/// A block the other way round.
-pub fn transpose([[a, b], [c, d]]: &Block) -> Block {
-    [[*a, *c], [*b, *d]]
-}
-
-/// Inverse of a block, if it has one.
-pub fn inverse(k: &Block) -> Option<Block> {
-    // No product of entries leaves the range of numbers.
-    let scale = 1.0 / k[0][0].abs().max(k[0][1].abs()).max(k[1][0].abs()).max(k[1][1].abs());
-    let [[a, b], [c, d]] = [[k[0][0] * scale, k[0][1] * scale], [k[1][0] * scale, k[1][1] * scale]];
-    let factor = scale / (a * d - b * c);
-    let inverse = [[d * factor, -b * factor], [-c * factor, a * factor]];
-    inverse.as_flattened().iter().all(|v| v.is_finite()).then_some(inverse)
-}

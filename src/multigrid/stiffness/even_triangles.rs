@@ -1,12 +1,12 @@
 //! Inner nodes of even macro triangles: all of them have the couplings of their row, which are not stored. Macro triangles are
 //! worked on in lattices of their own, several side by side.
 
-use super::block_lanes::product;
 use super::couplings::Couplings;
 use super::registers::{side_by_side, triangles_kernel};
 use super::sweep_order::SweepHalves;
 use super::triangle_kernel::{InnerNodes, TriangleKernel, TriangleTask};
 use crate::element::Block;
+use crate::element::block::product;
 use crate::mesh::lattice;
 use crate::multigrid::triangle_lattice::{Lane, LatticeRoom, TriangleNodes, clear_sides, side_nodes};
 use std::cell::RefCell;

@@ -3,9 +3,10 @@
 //! Opposite couplings are alike, so neighbours are added before they are multiplied. All factors of a sweep hold `D⁻¹`; the node
 //! relaxed last comes into the sum last, since it is ready last.
 
-use super::block_lanes::{BlockLanes, Sum, product};
-use super::couplings::{Couplings, Step, inverse};
+use super::block_lanes::{BlockLanes, Sum};
+use super::couplings::{Couplings, Step};
 use super::lanes::Lanes;
+use crate::element::block::{inverse, product};
 use crate::mesh::lattice;
 
 /// The way of a sweep through a row.

@@ -1,7 +1,7 @@
 //! The rows of a stiffness that are stored, as blocks of two by two.
 
-use super::couplings::{add, inverse};
 use crate::element::Block;
+use crate::element::block::{add, inverse};
 use faer::sparse::Triplet;
 use rustc_hash::FxHashMap;
 use std::ops::Range;

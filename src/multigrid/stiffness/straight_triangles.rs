@@ -15,11 +15,11 @@
 //!
 //! They are the integrals over a triangle of the products of the gradients `(4 l_k - 1) ∇l_k` and `4 (l_k ∇l_l + l_l ∇l_k)`.
 
-use super::couplings::{add, transpose};
 use super::lanes::Lanes;
 use super::registers::on_rows;
 use super::row_kernel::RowWork;
 use super::stored_rows::StoredRows;
+use crate::element::block::{add, transpose};
 use crate::element::{BadJacobian, Block, PlaneLaw, jacobian};
 use crate::geometry::Point;
 use crate::mesh::Lists;

@@ -13,12 +13,12 @@
 //! springs that are very much stiffer in one direction than the body would change it by more: then rows are read in double precision,
 //! too, from where they are stored, if none shares its blocks.
 
-use super::couplings::{add, inverse, transpose};
 use super::lanes::Lanes;
 use super::registers::on_rows;
 use super::row_kernel::RowWork;
 use super::stored_rows::{Part, StoredRows};
 use super::straight_triangles::StraightTriangles;
+use crate::element::block::{add, inverse, transpose};
 use crate::element::{Block, PlaneLaw};
 
 /// Smallest part of a diagonal block's trace that its smaller eigenvalue may be. Rounding takes 3e-8 of the trace, three hundredths of

@@ -3,10 +3,10 @@
 use super::*;
 use crate::body::MacroStiffness;
 use crate::discretisation::samples::vector;
+use crate::element::block::inverse;
 use crate::element::{Order, Plane, PlaneLaw};
 use crate::mesh::Level;
 use crate::mesh::samples::two_blocks;
-use crate::multigrid::stiffness::couplings::inverse;
 use crate::multigrid::stiffness::lanes::PlainLanes;
 
 /// One macro triangle: its couplings, its inner nodes in the vectors, the values of its lattice before the work.
