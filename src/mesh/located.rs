@@ -92,7 +92,7 @@ impl MacroMesh {
             ends.into_iter().find(|&vertex| (self.vertices[vertex as usize] - x).norm() <= NEAR * self.edge_length(edge))
         });
         let on_edge = || {
-            let outer = edges().filter(|&edge| self.edges[edge as usize].triangles[1].is_none());
+            let outer = edges().filter(|&edge| self.is_outer(edge));
             outer.into_iter().find_map(|edge| Some(Located::Edge(edge, self.fraction_of(edge, x)?)))
         };
         let inside = || near.iter().find(|&&triangle| self.locate(triangle, x).is_some()).map(|&k| Located::Triangle(k as u32));

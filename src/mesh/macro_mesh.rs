@@ -348,6 +348,11 @@ impl MacroMesh {
         self.triangles[self.beside(edge).0 as usize].body as usize
     }
 
+    /// Whether an edge lies on the outline of its body: one triangle is beside it.
+    pub fn is_outer(&self, edge: u32) -> bool {
+        self.edges[edge as usize].triangles[1].is_none()
+    }
+
     /// Whether an edge lies between two parts of a body.
     pub fn is_interface(&self, edge: u32) -> bool {
         let [first, second] = self.edges[edge as usize].triangles.map(|beside| beside.map(|k| self.triangles[k as usize].part));

@@ -22,7 +22,7 @@ pub struct BoundaryVertex {
 impl MacroMesh {
     /// The vertices on the boundaries of all bodies, named or not. One where a boundary touches itself is left out.
     pub fn boundary_vertices(&self) -> Vec<BoundaryVertex> {
-        let edges = (0..self.edges.len() as u32).filter(|&edge| self.edges[edge as usize].triangles[1].is_none());
+        let edges = (0..self.edges.len() as u32).filter(|&edge| self.is_outer(edge));
         let mut beside: HashMap<u32, [Vec<u32>; 2]> = HashMap::new();
         for edge in edges {
             let [from, to] = self.directed(edge);

@@ -25,8 +25,8 @@ impl MacroMesh {
     /// # Errors
     /// [`MeshError::Unusable`] for a midside node that no smooth curve over its side can have.
     pub(crate) fn bend_through_midsides(&mut self, midsides: Vec<([u32; 2], Point)>) -> Result<(), MeshError> {
-        let is_inner = |edge: u32| self.edges[edge as usize].triangles[1].is_some();
-        let outer: Vec<u32> = (0..self.edges.len() as u32).filter(|&edge| !is_inner(edge) || self.is_interface(edge)).collect();
+        let outer: Vec<u32> =
+            (0..self.edges.len() as u32).filter(|&edge| self.is_outer(edge) || self.is_interface(edge)).collect();
         let key = |edge: u32| {
             let [a, b] = self.edges[edge as usize].vertices;
             [a.min(b), a.max(b)]
@@ -36,7 +36,7 @@ impl MacroMesh {
         let mut bows: [Vec<Bow>; 2] = Default::default();
         for edge in outer {
             if let Some(&middle) = midsides.get(&key(edge)) {
-                bows[usize::from(is_inner(edge))].push(self.bow(edge, self.directed(edge), middle)?);
+                bows[usize::from(!self.is_outer(edge))].push(self.bow(edge, self.directed(edge), middle)?);
             }
         }
         self.has_midsides = bows.iter().flatten().any(|bow| !bow.is_flat());

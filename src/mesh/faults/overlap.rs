@@ -14,11 +14,8 @@ impl MacroMesh {
     /// # Errors
     /// Words with the place.
     pub(crate) fn check_overlap(&self) -> Result<(), MeshError> {
-        let on_boundary = |triangle: usize| {
-            let edges = self.triangles[triangle].edges;
-            edges.iter().any(|&edge| self.edges[edge as usize].triangles[1].is_none())
-        };
-        let on_boundary: Vec<usize> = (0..self.triangles.len()).filter(|&triangle| on_boundary(triangle)).collect();
+        let is_outer = |triangle: &usize| self.triangles[*triangle].edges.iter().any(|&edge| self.is_outer(edge));
+        let on_boundary: Vec<usize> = (0..self.triangles.len()).filter(is_outer).collect();
         let strip = BoundaryStrip::new(self, &on_boundary);
         let near: Vec<usize> = (0..self.triangles.len()).filter(|&triangle| strip.meets(&self.corners(triangle))).collect();
         let [discs, outer] = [&near, &on_boundary].map(|all| all.iter().map(|&k| disc(&self.corners(k))).collect::<Vec<_>>());

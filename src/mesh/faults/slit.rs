@@ -26,7 +26,7 @@ impl MacroMesh {
     /// Edges on the outline of each body.
     pub(crate) fn outer_edges(&self) -> Vec<Vec<u32>> {
         let mut outer = vec![Vec::new(); self.bodies.len()];
-        for edge in (0..self.edges.len() as u32).filter(|&edge| self.edges[edge as usize].triangles[1].is_none()) {
+        for edge in (0..self.edges.len() as u32).filter(|&edge| self.is_outer(edge)) {
             outer[self.body_beside(edge)].push(edge);
         }
         outer

@@ -152,6 +152,11 @@ impl<'a> Cursor<'a> {
         Ok(self.numbers(section, [i32::from_be_bytes, i32::from_le_bytes])?.map(i64::from))
     }
 
+    /// So many binary whole numbers of four bytes.
+    pub fn wholes(&mut self, section: &str, count: usize) -> Result<Vec<i64>, MeshError> {
+        (0..count).map(|_| self.whole::<1>(section).map(|[number]| number)).collect()
+    }
+
     /// The next binary number of eight bytes that is at least 0: a count, or a tag.
     pub fn size(&mut self, section: &str) -> Result<i64, MeshError> {
         let [number] = self.numbers(section, [u64::from_be_bytes, u64::from_le_bytes])?;

@@ -88,7 +88,7 @@ fn in_bytes(cursor: &mut Cursor, dimension: usize) -> Result<(i64, Vec<i64>), Me
     let [entity] = cursor.whole(SECTION)?;
     cursor.pass(SECTION, if dimension == 0 { 3 } else { 6 }, 8)?;
     let count = cursor.size(SECTION)?;
-    let tags = (0..count).map(|_| cursor.whole::<1>(SECTION).map(|[tag]| tag)).collect::<Result<_, _>>()?;
+    let tags = cursor.wholes(SECTION, count as usize)?;
     if dimension > 0 {
         let bounding = cursor.size(SECTION)?;
         cursor.pass(SECTION, bounding, 4)?;

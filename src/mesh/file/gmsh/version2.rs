@@ -50,19 +50,14 @@ pub(super) fn read_elements(cursor: &mut Cursor, groups: &Groups, elements: &mut
         };
         for _ in 0..following {
             cursor.pass(SECTION, 1, 4)?;
-            let tags = wholes(cursor, tag_count)?;
-            let nodes = wholes(cursor, kind.nodes)?;
+            let tags = cursor.wholes(SECTION, tag_count)?;
+            let nodes = cursor.wholes(SECTION, kind.nodes)?;
             add(cursor, groups, elements, kind, &tags, &nodes)?;
             read += 1;
         }
     }
     elements.join_repeated();
     Ok(())
-}
-
-/// So many binary whole numbers.
-fn wholes(cursor: &mut Cursor, count: usize) -> Result<Vec<i64>, MeshError> {
-    (0..count).map(|_| cursor.whole::<1>("Elements").map(|[number]| number)).collect()
 }
 
 /// Adds an element; its first tag is the physical group (0 for none), the third the number of partitions that it lies in.

@@ -34,7 +34,7 @@ impl Assembly<'_> {
             let (nodes, triangle) = (part.numbers.of_one::<6>(), &mesh.triangles[part.triangle]);
             let is_free = |node: &usize| own.contains(node) && self.space.constraints.get(*node).is_none();
             let is_plain = part.is_straight && is_even[triangle.part as usize] && nodes.iter().all(is_free);
-            let is_outer = triangle.edges.map(|edge| mesh.edges[edge as usize].triangles[1].is_none());
+            let is_outer = triangle.edges.map(|edge| mesh.is_outer(edge));
             let is_outer = |a: usize| is_outer[a % 3] || a < 3 && is_outer[(a + 2) % 3];
             let stored = nodes.iter().enumerate().filter(|(a, node)| own.contains(node) && (!is_plain || is_outer(*a)));
             stored.for_each(|(_, node)| is_stored[node - own.start] = true);
