@@ -14,7 +14,14 @@ impl Spline {
         let least = if closed { 4 } else { 2 };
         assert!(points.len() >= least && points.len() == knots.len(), "a spline needs {least} points, each with a parameter");
         let curvature = if closed { closed_curvatures(&knots, points) } else { curvatures(&knots, points) };
-        Self::with_curvatures(knots, points, &curvature, closed)
+        let span = |k: usize| {
+            let h = knots[k + 1] - knots[k];
+            let (m0, m1) = (curvature[k], curvature[k + 1]);
+            let slope = (points[k + 1] - points[k]) / h - h / 6.0 * (2.0 * m0 + m1);
+            [points[k], slope, 0.5 * m0, (m1 - m0) / (6.0 * h)]
+        };
+        let spans = (0..points.len() - 1).map(span).collect();
+        Self::of_spans(knots, spans, closed)
     }
 
     /// The spline through every other point between its spans; nothing if these are too few.
@@ -24,18 +31,6 @@ impl Spline {
         let points: Vec<Point> = knots.iter().map(|knot| self.point(*knot)).collect();
         let least = if self.closed { 4 } else { 2 };
         (points.len() >= least && points.len() <= last).then(|| Self::through(knots, &points, self.closed))
-    }
-
-    /// The spline through points at these parameters with these second derivatives there.
-    fn with_curvatures(knots: Vec<f64>, points: &[Point], curvature: &[Point], closed: bool) -> Self {
-        let span = |k: usize| {
-            let h = knots[k + 1] - knots[k];
-            let (m0, m1) = (curvature[k], curvature[k + 1]);
-            let slope = (points[k + 1] - points[k]) / h - h / 6.0 * (2.0 * m0 + m1);
-            [points[k], slope, 0.5 * m0, (m1 - m0) / (6.0 * h)]
-        };
-        let spans = (0..points.len() - 1).map(span).collect();
-        Self::of_spans(knots, spans, closed)
     }
 }
 
