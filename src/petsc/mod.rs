@@ -21,7 +21,6 @@ mod krylov;
 mod matrix;
 mod nest;
 pub mod options;
-mod owner_sums;
 mod partition;
 mod preconditioner;
 mod session;

@@ -55,8 +55,12 @@ pub fn any_of_user(session: &Session, is_like: impl Fn(&str) -> bool) -> bool {
 pub fn of_user(session: &Session) -> Vec<String> {
     let defaults = session.defaults().borrow();
     let is_own = |name: &String| defaults.contains(&name.to_lowercase()) || STARTED_WITH.contains(&name.as_str());
-    let given = all().into_iter().filter(|(name, _)| !is_own(name));
-    given.map(|(name, value)| format!("{name} {value}").trim_end().to_owned()).collect()
+    all().into_iter().filter(|(name, _)| !is_own(name)).map(in_words).collect()
+}
+
+/// An option as `-name value`, or as a bare flag.
+fn in_words((name, value): (String, String)) -> String {
+    format!("{name} {value}").trim_end().to_owned()
 }
 
 /// Options of the user's that no object has asked for so far, each as `-name value`: a typing mistake is among them.
@@ -69,12 +73,8 @@ pub fn unused(session: &Session) -> Result<Vec<String>> {
         (0..count as usize).map(|i| unsafe { (format!("-{}", words(*names.add(i))), words(*values.add(i))) }).collect();
     petsc!(PetscOptionsLeftRestore(ptr::null_mut(), &mut count, &mut names, &mut values))?;
     let defaults = session.defaults().borrow();
-    Ok(left
-        .into_iter()
-        .filter(|(name, _)| !defaults.contains(&name.to_lowercase()))
-        .filter(|(name, _)| !is_read_later(name))
-        .map(|(name, value)| format!("{name} {value}").trim_end().to_owned())
-        .collect())
+    let is_expected = |name: &str| defaults.contains(&name.to_lowercase()) || is_read_later(name);
+    Ok(left.into_iter().filter(|(name, _)| !is_expected(name)).map(in_words).collect())
 }
 
 /// All options that are set, with their values.

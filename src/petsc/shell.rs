@@ -144,11 +144,6 @@ unsafe extern "C" fn apply(preconditioner: ffi::PC, x: ffi::Vec, y: ffi::Vec) ->
     act(find, |action: &Acting, session| action.apply(&Lent::new(session, x), &mut Lent::new(session, y)))
 }
 
-/// Runs an action on the context of a shell matrix.
-fn act_by(matrix: ffi::Mat, action: impl FnOnce(&Multiplying, &Session) -> Result<()>) -> Code {
-    act(|context| petsc!(MatShellGetContext(matrix, context)), action)
-}
-
 /// Runs an action on the context that `find` writes to a place it is given.
 fn act<T: ?Sized>(find: impl FnOnce(*mut c_void) -> Result<()>, action: impl FnOnce(&T, &Session) -> Result<()>) -> Code {
     report(|| {
@@ -181,14 +176,16 @@ unsafe extern "C" fn drop_context(given: *mut c_void) -> Code {
 // [`Operator`] as PETSc calls it.
 
 unsafe extern "C" fn multiply(matrix: ffi::Mat, x: ffi::Vec, y: ffi::Vec) -> Code {
-    act_by(matrix, |action, session| {
+    let find = |context: *mut c_void| petsc!(MatShellGetContext(matrix, context));
+    act(find, |action: &Multiplying, session| {
         action.multiply(&Lent::new(session, x), &mut Lent::new(session, y))?;
         petsc!(mezha_log_work(action.work()))
     })
 }
 
 unsafe extern "C" fn norm(matrix: ffi::Mat, kind: ffi::NormType, norm: *mut f64) -> Code {
-    act_by(matrix, |action, session| {
+    let find = |context: *mut c_void| petsc!(MatShellGetContext(matrix, context));
+    act(find, |action: &Multiplying, session| {
         assert_eq!(kind, ffi::NormType::NORM_INFINITY, "the one norm that shells have");
         unsafe { [*norm] = session.max([action.norm_infinity()?]) };
         Ok(())
