@@ -3,7 +3,7 @@
 use super::level::Coarsening;
 use super::product::GalerkinProduct;
 use crate::multigrid::stiffness::LatticeOperator;
-use crate::petsc::{Result, Session};
+use crate::petsc::Session;
 use std::rc::Rc;
 
 /// Galerkin products `Pᵀ A P`, each of the next finer one, the finest of the coarsest stiffness that is assembled. So contact
@@ -15,16 +15,16 @@ pub struct GalerkinLevels {
 
 impl GalerkinLevels {
     /// Below `finest`; the steps lead from the coarsest level up to it. **Collective**
-    pub fn new(finest: &LatticeOperator, steps: &[Rc<Coarsening>], session: &Session) -> Result<Self> {
+    pub fn new(finest: &LatticeOperator, steps: &[Rc<Coarsening>], session: &Session) -> Self {
         let mut levels: Vec<(GalerkinProduct, Rc<LatticeOperator>)> = Vec::new();
         for step in steps.iter().rev() {
             let above = levels.last().map_or(finest, |(_, rows)| rows);
-            let (mut product, rows) = GalerkinProduct::new(above, step, session)?;
+            let (mut product, rows) = GalerkinProduct::new(above, step, session);
             product.refresh(above, 0..above.node_count() as u32, &rows);
             levels.push((product, Rc::new(rows)));
         }
         levels.reverse();
-        Ok(Self { levels })
+        Self { levels }
     }
 
     /// The same of a stiffness with other values. **Collective**

@@ -8,7 +8,7 @@ use super::level::Coarsening;
 use crate::element::Block;
 use crate::mesh::{Lists, each_once};
 use crate::multigrid::stiffness::{LatticeOperator, Part, StoredRows};
-use crate::petsc::{Result, Session};
+use crate::petsc::Session;
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -46,7 +46,7 @@ pub struct GalerkinProduct {
 
 impl GalerkinProduct {
     /// Of a level all of whose rows are stored; with room for the product, whose pattern this is. **Collective**
-    pub fn new(fine: &LatticeOperator, coarsening: &Rc<Coarsening>, session: &Session) -> Result<(Self, LatticeOperator)> {
+    pub fn new(fine: &LatticeOperator, coarsening: &Rc<Coarsening>, session: &Session) -> (Self, LatticeOperator) {
         let step = KnownStep::new(fine, coarsening);
         let own = coarsening.coarse.own(session.rank());
         let mut pattern = vec![Vec::new(); own.len()];
@@ -76,9 +76,9 @@ impl GalerkinProduct {
         let known = |number: usize| step.known.binary_search(&(number as u32)).map_or(NONE, |known| known as u32);
         let (known_here, known_far) = (own.clone().map(known).collect(), far.iter().map(|&number| known(number)).collect());
         let (sent, arrived) = (vec![[[0.0; 2]; 2]; ranks.len()], vec![0.0; 4 * arriving.len()]);
-        let lattice = LatticeOperator::of_product(product, &own, far.clone(), session)?;
+        let lattice = LatticeOperator::of_product(product, &own, far.clone(), session);
         let session = session.clone();
-        Ok((Self { session, step, own, far, known_here, known_far, foreign, sent, ranks, arrived, places }, lattice))
+        (Self { session, step, own, far, known_here, known_far, foreign, sent, ranks, arrived, places }, lattice)
     }
 
     /// Makes those rows of the product again that some rows of the level above have a part in; which ones. **Collective**

@@ -48,11 +48,11 @@ pub struct Assembled {
     /// Columns of other ranks, ascending.
     pub far: Vec<usize>,
     /// Inner nodes of each macro triangle whose inner rows are stored, ascending.
-    pub inside: Vec<Range<usize>>,
+    pub inside: Rc<[Range<usize>]>,
     /// The rows inside of whole macro triangles.
-    pub even: EvenTriangles,
+    pub even: Rc<EvenTriangles>,
     /// Those of the other nodes that have no stored ones.
-    pub straight: StraightTriangles,
+    pub straight: Rc<StraightTriangles>,
 }
 
 impl<'a> Assembly<'a> {
@@ -127,7 +127,7 @@ impl<'a> Assembly<'a> {
         }
         inside.sort_unstable_by_key(|nodes: &Range<usize>| nodes.start);
         let even = EvenTriangles::new(self.space.numbering.level.intervals, Rc::new(couplings), triangles);
-        Ok(Assembled { rows, far, inside, even, straight })
+        Ok(Assembled { rows, far, inside: inside.into(), even: Rc::new(even), straight: Rc::new(straight) })
     }
 
     /// The stored rows with zeros, and their columns of other ranks.

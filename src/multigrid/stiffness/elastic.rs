@@ -1,13 +1,12 @@
 //! The bodies without contact: what no contact boundary and no active set changes.
 
-use super::assembly::{Assembled, Assembly};
+use super::assembly::Assembly;
 use super::lattice_operator::LatticeOperator;
 use super::{ContactNeighbours, SolverView, Stiffness};
 use crate::discretisation::{Discretisation, Form, SMALL, SystemError};
 use crate::geometry::Point;
 use crate::multigrid::user_options::takes_another_preconditioner;
 use crate::petsc::Session;
-use std::rc::Rc;
 
 /// Stiffness and load of the bodies.
 pub struct Elastic {
@@ -40,9 +39,7 @@ impl Elastic {
             let assembly = Assembly::new(&problem.scene, space, form == Form::Augmented, session.rank());
             let assembled = assembly.assemble(&neighbours[l], lift).map_err(SystemError::from);
             let assembled = session.agree(assembled).map_err(SystemError::Case)?;
-            let Assembled { rows, far, inside, even, straight } = assembled;
-            let others = (&Rc::new(even), &Rc::new(straight));
-            let lattice = LatticeOperator::new(rows, &space.own, far, &inside.into(), others, session)?;
+            let lattice = LatticeOperator::new(assembled, &space.own, session);
             stiffness.push(Stiffness::new(lattice, seen(problem, last, form, session), session)?);
         }
         Ok(Self { stiffness, load })

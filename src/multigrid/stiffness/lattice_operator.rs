@@ -1,5 +1,6 @@
 //! The stiffness of a level, its rows stored, or those of even macro triangles: what PETSc's solvers see of it.
 
+use super::assembly::Assembled;
 use super::couplings::Couplings;
 use super::even_triangles::EvenTriangles;
 use super::lattice_rows::LatticeRows;
@@ -40,51 +41,41 @@ pub struct LatticeOperator {
 }
 
 impl LatticeOperator {
-    /// From the stored rows and the others; `far` are the columns of other ranks, `inside` the inner nodes of each macro triangle whose
-    /// inner rows are stored. **Collective**
-    pub fn new(
-        rows: StoredRows,
-        own: &Range<usize>,
-        far: Vec<usize>,
-        inside: &Rc<[Range<usize>]>,
-        (even, straight): (&Rc<EvenTriangles>, &Rc<StraightTriangles>),
-        session: &Session,
-    ) -> Result<Self> {
+    /// From the rows of the nodes of this rank. **Collective**
+    pub fn new(Assembled { rows, far, inside, even, straight }: Assembled, own: &Range<usize>, session: &Session) -> Self {
         let in_even = even.couplings.iter().zip(&even.triangles).map(|(couplings, triangle)| {
             let all: usize = couplings.iter().flat_map(|couplings| [0, 1].map(|k| couplings.of(k).len())).sum();
             (triangle.inner.len() * all) as f64 / (2 * couplings.len()) as f64
         });
         let not_stored = in_even.sum::<f64>() + straight.coupling_count() as f64;
-        let (order, halo) = (SweepOrder::new(&rows, inside), Rc::new(Halo::new(session, own, &far)));
-        let rows = Rc::new(RefCell::new(rows));
-        let changed = RefCell::default();
-        Ok(Self {
+        Self {
+            order: SweepOrder::new(&rows, &inside),
+            halo: Rc::new(Halo::new(session, own, &far)),
+            rows: Rc::new(RefCell::new(rows)),
             own: own.clone(),
-            inside: inside.clone(),
-            even: even.clone(),
-            straight: straight.clone(),
-            rows,
-            changed,
+            inside,
+            even,
+            straight,
+            changed: RefCell::default(),
             far,
             not_stored,
-            halo,
-            order,
             is_product: false,
-        })
+        }
     }
 
     /// Of the rows of a Galerkin product, those of all nodes of this rank. **Collective**
-    pub fn of_product(rows: StoredRows, own: &Range<usize>, far: Vec<usize>, session: &Session) -> Result<Self> {
-        let lattice = Self::new(rows, own, far, &Rc::default(), (&Rc::default(), &Rc::default()), session)?;
-        Ok(Self { is_product: true, ..lattice })
+    pub fn of_product(rows: StoredRows, own: &Range<usize>, far: Vec<usize>, session: &Session) -> Self {
+        let stored = Assembled { rows, far, inside: Rc::default(), even: Rc::default(), straight: Rc::default() };
+        Self { is_product: true, ..Self::new(stored, own, session) }
     }
 
     /// A copy with places for the couplings of a contact boundary; even macro triangles are the same. **Collective**
-    pub fn with_places(&self, contact: &ContactNeighbours, session: &Session) -> Result<Self> {
+    pub fn with_places(&self, contact: &ContactNeighbours, session: &Session) -> Self {
         let (rows, far) = self.rows.borrow().with_places(contact, &self.own, &self.far);
         let moved: Vec<u32> = self.far.iter().map(|node| far.binary_search(node).expect("it is among them") as u32).collect();
         let even = if far.len() == self.far.len() { self.even.clone() } else { Rc::new(self.even.moved(self.own.len(), &moved)) };
-        Self::new(rows, &self.own, far, &self.inside, (&even, &self.straight), session)
+        let (inside, straight) = (self.inside.clone(), self.straight.clone());
+        Self::new(Assembled { rows, far, inside, even, straight }, &self.own, session)
     }
 
     /// Shows where the couplings of a node, one of this rank's, with others lie, and gives its stored row.

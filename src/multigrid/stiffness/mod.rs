@@ -186,7 +186,7 @@ impl Stiffness {
 
     /// A copy with places for the couplings of a contact boundary. **Collective**
     fn with_places(&self, neighbours: &ContactNeighbours, session: &Session) -> Result<Self, SystemError> {
-        Self::new(self.lattice.with_places(neighbours, session)?, self.seen, session)
+        Self::new(self.lattice.with_places(neighbours, session), self.seen, session)
     }
 
     /// With all its rows in a matrix of PETSc's, as factorisations want it; `None` if that is what solvers see. **Collective**

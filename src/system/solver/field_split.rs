@@ -85,7 +85,7 @@ fn levels(
     session: &Session,
 ) -> Result<(GalerkinLevels, Rc<RefCell<Cycle>>), SystemError> {
     let steps: Vec<_> = interpolations.iter().filter_map(|step| step.coarsening.clone()).collect();
-    let auxiliary = GalerkinLevels::new(system.stiffness[0].lattice(), &steps, session)?;
+    let auxiliary = GalerkinLevels::new(system.stiffness[0].lattice(), &steps, session);
     let all = auxiliary.iter().chain(system.stiffness.iter().map(Stiffness::lattice));
     let cycle = Rc::new(RefCell::new(Cycle::new(all, interpolations, preconditioning.conjugate_steps(), session)?));
     let solver = preconditioner.field_split_solvers()?.swap_remove(0);
