@@ -21,9 +21,9 @@ use std::rc::Rc;
 /// Relative residual of solves on boundaries that are still on their way.
 const ON_THE_WAY: f64 = 1e-5;
 
-/// Change of the displacement, relative to its norm, from which on a boundary that still moves is solved for to the tolerance: ten times
-/// what solves on the way leave. A pin in three leaves finds no rest on four of nine meshes without this rule,
-/// on one with a tenth of this, and on none with it.
+/// Change of the displacement, relative to its norm, from which on a boundary that still moves is solved for to the tolerance: ten
+/// times what solves on the way leave. A pin in three leaves finds no rest on four of nine meshes without this rule, on one with a
+/// tenth of this share, and on none with it.
 const STILL: f64 = 10.0 * ON_THE_WAY;
 
 /// Share of its length by which a boundary moves when it is nearly there.
