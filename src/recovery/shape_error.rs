@@ -2,8 +2,10 @@
 //!
 //! A spline through every node is compared with that through every other one, and that with the one through every fourth. Where a boundary
 //! is smooth, the slopes of the first two differ by much less than those of the last two, and the difference tells the error
-//! of the first. Where its nodes scatter, or where its curvature jumps, it does not fall. A gap that is uneven by slopes e' takes the
-//! pressure E* e' on a half-plane (Johnson, Contact mechanics, 1985, 2.4).
+//! of the first. Where its nodes scatter, or where its curvature jumps, it does not fall. A gap that is uneven by waves with slopes
+//! e' takes pressures of E* e'/2 on a half-plane (Johnson, Contact mechanics, 1985, 13.2). Root mean squares by that, and measured on
+//! whole rings of 30/36, 24/32, 20/28 and 40/48 chords that overlap by 5e-4 of the radius: .031 and .033, .059 and .058, .10 and .10,
+//! .013 and .014.
 
 use super::traces::TracePoint;
 use crate::discretisation::Contact;
@@ -16,7 +18,7 @@ const ORDER: f64 = 8.0;
 const ON_AXIS: f64 = 1e-9;
 
 /// A side that is a spline through nodes, with those through fewer of them.
-struct Coarser<'c> {
+struct NodedSide<'c> {
     all: &'c Curve,
     second: Curve,
     fourth: Curve,
@@ -34,15 +36,15 @@ pub fn shape_error(contact: &Contact, points: &[TracePoint]) -> Option<f64> {
     let is_on_axis = |end: f64| boundary.width(end) < ON_AXIS * boundary.width(middle);
     let is_free = contact.ends_with_a_body() == [false; 2] && !boundary.ends().into_iter().any(is_on_axis);
     let slopes = shapes.each_ref().map(|curves| slope_error(curves, &pressing, is_free));
-    (force > 0.0 && contact.compliance > 0.0).then(|| slopes[0].hypot(slopes[1]) / (contact.compliance * mean))
+    (force > 0.0 && contact.compliance > 0.0).then(|| 0.5 * slopes[0].hypot(slopes[1]) / (contact.compliance * mean))
 }
 
 /// Error of the slopes of a side where it presses (radians), root mean square; without their mean, where that is no matter.
 fn slope_error(curves: &[Curve], pressing: &[&TracePoint], without_mean: bool) -> f64 {
-    let sides: Vec<Coarser> = curves.iter().filter_map(Coarser::of).collect();
+    let sides: Vec<NodedSide> = curves.iter().filter_map(NodedSide::of).collect();
     let (mut first, mut second) = (Vec::new(), Vec::new());
     for point in pressing {
-        let away = |side: &&Coarser| (side.all.point(side.all.nearest(point.x)) - point.x).norm_squared();
+        let away = |side: &&NodedSide| (side.all.point(side.all.nearest(point.x)) - point.x).norm_squared();
         let Some(side) = sides.iter().min_by(|a, b| away(a).total_cmp(&away(b))) else { continue };
         first.push(apart(side.all, &side.second, point.x));
         second.push(apart(&side.second, &side.fourth, point.x));
@@ -53,7 +55,7 @@ fn slope_error(curves: &[Curve], pressing: &[&TracePoint], without_mean: bool) -
     if share < 0.5 { first * share / (1.0 - share) } else { first }
 }
 
-impl<'c> Coarser<'c> {
+impl<'c> NodedSide<'c> {
     fn of(curve: &'c Curve) -> Option<Self> {
         let Curve::Spline(spline) = curve else { return None };
         let second = spline.coarser()?;
