@@ -295,6 +295,29 @@ fn a_corner_on_an_oblique_flank_presses_along_the_normal_of_the_flank_or_tells()
     }
 }
 
+/// A bar whose two corners press on a round trough, opposite to each other.
+#[test]
+fn two_corners_of_one_contact_are_told_like_one() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let trough = |x: f64| 6.0 - (36.0 - x * x).sqrt();
+    let block = grid(24, 8, 0, |u, v| {
+        let x = 4.0 * u - 2.0;
+        [x, -3.0 + v * (3.0 + trough(x))]
+    });
+    let bar = grid(12, 6, 0, |u, v| [2.0 * u - 1.0, trough(1.0) + v]);
+    let bodies = vec![("block", block, ["floor", "", "trough", ""]), ("bar", bar, ["under", "", "top", ""])];
+    let case = "mesh = { file = \"mesh.msh\", refine = 3 }\nbody.block = { young = 2000, poisson = 0.3 }\n\
+                body.bar = { young = 2000, poisson = 0.3 }\nsupport.floor = { on = \"floor\", ux = 0.0, uy = 0.0 }\n\
+                load.top = { on = \"top\", rigid = true, force = [0.0, -20.0], ux = 0.0 }\n\
+                contact.seam = { between = [\"under\", \"trough\"] }\n";
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), case);
+    let told = Run::file(&file).converged();
+    assert!(told.number("/contact/seam/slant") > 0.05, "{}", told.said());
+    assert_eq!(told.value("/contact/seam/trust_force"), false, "{}", told.said());
+    let right = Run::file(&file).ranks(2).set("contact.seam.curve", "\"trough\"").converged();
+    assert!(right.number("/contact/seam/slant") < 0.01, "{}", right.said());
+}
+
 /// A pin that three leaves bend, with clearance: what presses is so small beside what moves that a solve on the way may leave all as it
 /// was, while the ends go on.
 #[test]

@@ -62,9 +62,34 @@ fn a_corner_within_a_contact_has_no_largest_pressure() {
 #[test]
 fn a_curvature_that_jumps_within_a_side_is_told() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let height = |x: f64| 0.7 - (0.49 - (x.abs() - 0.4).max(0.0).powi(2)).sqrt();
-    let file = write_scene(folder.path(), &pressed(height, |x| x).text(), CASE);
-    let ended = Run::file(&file).ranks(2).converged();
-    assert_eq!(ended.value("/contact/seam/trust"), false, "{}", ended.said());
-    assert!(ended.errors.contains("or the curvature jumps between them"), "{}", ended.errors);
+    // At an even node of the side, and at an odd one.
+    for flat in [10.0 / 26.0, 11.0 / 26.0] {
+        let height = |x: f64| 0.7 - (0.49 - (x.abs() - flat).max(0.0).powi(2)).sqrt();
+        let file = write_scene(folder.path(), &pressed(height, |x| x).text(), CASE);
+        let ended = Run::file(&file).ranks(2).converged();
+        assert_eq!(ended.value("/contact/seam/trust"), false, "{}", ended.said());
+        assert!(ended.errors.contains("or the curvature jumps between them"), "{flat}: {}", ended.errors);
+    }
+}
+
+/// An arc in two pieces, each with a name and a contact of its own: one ends where the other begins, and that is no corner.
+#[test]
+fn an_end_of_a_name_is_no_corner() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut mesh = pressed(|x| 4.0 - (16.0 - x * x).sqrt(), |x| x);
+    let body = &mut mesh.bodies[1];
+    let points = body.1.points.clone();
+    let lies_right = |edge: &[usize; 2]| edge.iter().map(|&node| points[node][0]).sum::<f64>() > 0.2;
+    let [bottom, right, ..] = &mut body.1.sides;
+    right.clear();
+    right.extend(bottom.iter().copied().filter(lies_right));
+    bottom.retain(|edge| !lies_right(edge));
+    body.2[1] = "body.right";
+    let case = CASE.replace("contact.seam", "contact.left") + "contact.right = { between = [\"block.top\", \"body.right\"] }\n";
+    let file = write_scene(folder.path(), &mesh.text(), &case.replace("-5.0", "-30.0"));
+    let ended = Run::file(&file).set("mesh.refine", 2).converged();
+    for name in ["left", "right"] {
+        assert!(ended.number(&format!("/contact/{name}/force")) > 1.0, "{}", ended.said());
+        assert_eq!(ended.number(&format!("/contact/{name}/slant")), 0.0, "{}", ended.said());
+    }
 }

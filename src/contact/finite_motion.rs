@@ -41,8 +41,6 @@ pub struct FiniteMotion {
     pub whole: GapError,
     /// What of it is left out because bodies turn.
     pub turning: GapError,
-    /// Angle between Γ_C and the side on which a corner of the other one presses (radians): the direction of the force is off by it.
-    pub slant: f64,
     /// `∫λ ds` (force per thickness).
     pub force: f64,
     /// Length of the segments that press.
@@ -92,7 +90,6 @@ pub fn finite_motion(
         return FiniteMotion::default();
     }
     let tilts = sides.map_or([0.0; 2], |sides| sides.map(|side| mean_tilt(side, boundary, &points)));
-    let slant = sides.map_or(0.0, |sides| slant_of(sides, boundary, &points));
     let pressed_point = |&[t, weight, arc]: &[f64; 3]| {
         let (x, normal) = (boundary.point(t), boundary.normal(t));
         let [slip, moved, shifted] = match sides {
@@ -110,7 +107,6 @@ pub fn finite_motion(
         slip: mean(&pressed, |point| point.slip * point.slip).sqrt(),
         whole: gap_error(&pressed, force, |point| point.moved),
         turning: gap_error(&pressed, force, |point| point.moved - point.shifted),
-        slant,
         force,
         length,
     }
@@ -151,30 +147,6 @@ fn mean_tilt(side: &SmoothSide, boundary: &ContactBoundary, points: &[[f64; 3]])
         total += weight;
     }
     sum / total
-}
-
-/// Smallest angle between Γ_C and a side on which the other one presses with its end (radians): the force acts along the normal of the side
-/// that goes on, since a half-plane under any pressure that falls to zero at its ends is not pushed along. Nothing if both sides go
-/// on or both end, or if Γ_C has the direction of that side somewhere in what presses.
-fn slant_of(sides: [&SmoothSide; 2], boundary: &ContactBoundary, points: &[[f64; 3]]) -> f64 {
-    let foot = |side: &SmoothSide, t: f64| side.nearest(boundary.point(t) - side.shift, Configuration::Reference);
-    let left = |side: &SmoothSide, t: f64| match side.turn() {
-        Some(_) => f64::INFINITY,
-        None => foot(side, t).min(side.length() - foot(side, t)),
-    };
-    let goes_on = |&[t, ..]: &[f64; 3]| {
-        let segment = boundary.knots().partition_point(|knot| *knot <= t).clamp(1, boundary.segments()) - 1;
-        let (near, left) = (boundary.segment_length(segment), sides.map(|side| left(side, t)));
-        [1, 0].into_iter().find(|&k| left[1 - k] <= near && left[k] > 2.0 * near)
-    };
-    let Some(side) = points.first().and_then(goes_on).or_else(|| points.last().and_then(goes_on)) else { return 0.0 };
-    let angle = |&[t, ..]: &[f64; 3]| {
-        let tangent = sides[side].curve(Configuration::Reference).tangent(foot(sides[side], t));
-        tangent.dot(&boundary.normal(t)).atan2(tangent.perp(&boundary.normal(t)).abs())
-    };
-    let angles: Vec<f64> = points.iter().map(angle).collect();
-    let is_one_handed = angles.iter().all(|angle| *angle > 0.0) || angles.iter().all(|angle| *angle < 0.0);
-    if is_one_handed { angles.iter().map(|angle| angle.abs()).fold(f64::INFINITY, f64::min) } else { 0.0 }
 }
 
 /// Slip, and gap of the displaced bodies less the linear one, at a point of Γ_C that moves with the bodies' mean. Each

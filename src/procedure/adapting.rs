@@ -2,7 +2,7 @@
 //! reached.
 
 use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity, SequenceEnd};
-use crate::discretisation::{Scene, SystemError};
+use crate::discretisation::{Contact, Scene, SystemError};
 use crate::mesh::Cells;
 use crate::petsc::StageGuard;
 use crate::procedure::ending::MOVES;
@@ -169,6 +169,7 @@ impl Procedure<'_> {
                 local = self.gathered(scene, left, falls);
             }
             let narrow = goal.quantity.contact().filter(|_| solved.ending.is_converged() && tells_nothing(&local));
+            let narrow = narrow.filter(|name| carries(solved, name, goal.tolerance));
             if let Some(contact) = narrow {
                 let beside = beside(solved, contact, self.session.rank());
                 local = self.gathered(scene, &beside, &vec![FALL_BESIDE; beside.len()]);
@@ -204,6 +205,13 @@ impl Procedure<'_> {
         self.session.sum(all.as_flattened_mut());
         all.iter().map(|values| LocalIndicator { fall: values[0], cells: Cells::new(|k| values[1 + k]) }).collect()
     }
+}
+
+/// Whether a contact carries more than a share of the largest force.
+fn carries(Solved { problem, solution, .. }: &Solved, name: &str, share: f64) -> bool {
+    let force = |contact: &Contact| solution.pressure(contact).force().abs();
+    let largest = problem.contacts.iter().map(force).fold(0.0, f64::max);
+    problem.contacts.iter().any(|contact| contact.pair.name == name && force(contact) > share * largest)
 }
 
 /// Indicators of the macro triangles of a rank that count those beside a contact alone: nothing tells an error of it, and the mesh may be

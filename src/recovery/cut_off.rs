@@ -37,10 +37,20 @@ impl ContactPressure<'_> {
 
     /// Whether the corner of an elastic body presses at an end of a zone on an elastic one that goes on.
     pub fn presses_with_a_corner(&self, scene: &Scene, zone: &Zone, end: usize) -> bool {
-        let has_corner = |side| turn_at_end(self.contact, &scene.mesh, side, end).is_some_and(|turn| turn < -SMOOTH);
-        let is_elastic = !self.contact.bodies.iter().any(|&body| scene.is_rigid(body));
-        is_elastic && self.ends_at_a_corner(&scene.mesh, zone, end) && (0..2).any(has_corner)
+        let (contact, mesh) = (self.contact, &scene.mesh);
+        let is_elastic = !contact.bodies.iter().any(|&body| scene.is_rigid(body));
+        // The side that ends here: where the other one ends, farther on, is no matter.
+        let ending = || {
+            let beyond = beyond(contact, mesh, end);
+            usize::from(beyond[1] < beyond[0])
+        };
+        is_elastic && self.ends_at_a_corner(mesh, zone, end) && ends_with_a_corner(contact, mesh, ending(), end)
     }
+}
+
+/// Whether the outline of a body turns away from the other one where its side ends.
+pub fn ends_with_a_corner(contact: &Contact, mesh: &MacroMesh, side: usize, end: usize) -> bool {
+    turn_at_end(contact, mesh, side, end).is_some_and(|turn| turn < -SMOOTH)
 }
 
 /// Whether both bodies go on smoothly beyond an end of Γ_C, though the boundary of one or both ends there by its name.

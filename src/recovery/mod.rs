@@ -31,6 +31,7 @@ mod overlaps;
 mod penetrations;
 mod probe;
 mod shape_error;
+mod slant;
 mod stress;
 mod stress_peaks;
 mod traces;

@@ -18,6 +18,7 @@
 //! zero. Where both ends of contact lie inside the boundaries, a tilt of the gap moves the contact and does not change λ.
 
 use super::deformation::Deformation;
+use super::slant::slant;
 use super::traces::TracePoint;
 use crate::body::RigidSet;
 use crate::contact::{Configuration, FiniteMotion, GapError, SmoothSide, Turn, finite_motion};
@@ -127,7 +128,7 @@ fn one(
         slip: sides.map(|_| found.slip / found.length),
         slip_error: sides.map(|_| error(&found.whole)),
         rotation_error: error(&found.turning),
-        slant: found.slant,
+        slant: sides.map_or(0.0, |sides| slant(&problem.scene, &solution.pressure(contact), sides)),
     })
 }
 

@@ -9,7 +9,7 @@
 
 use super::traces::TracePoint;
 use crate::discretisation::Contact;
-use crate::geometry::{Curve, Point};
+use crate::geometry::{Curve, Point, Spline};
 
 /// The slopes of a spline through nodes of a smooth boundary are exact to the third power of their distance.
 const ORDER: f64 = 8.0;
@@ -17,50 +17,80 @@ const ORDER: f64 = 8.0;
 /// Width of a contact boundary at an end by that at its middle, on the axis of revolution.
 const ON_AXIS: f64 = 1e-9;
 
-/// A side that is a spline through nodes, with those through fewer of them.
+/// A side that is a spline through nodes, with splines through every other one of them, the even and the odd ones, and through every
+/// other one of these.
 struct NodedSide<'c> {
     all: &'c Curve,
-    second: Curve,
-    fourth: Curve,
+    halves: [[Curve; 2]; 2],
 }
+
+/// Angles from a spline to that through half of its nodes, and from that to the one through a quarter (radians), at places that
+/// press; none on a side whose shape is known.
+type SlopeErrors = Vec<[f64; 2]>;
 
 /// Estimated relative error of λ, root mean square over what presses, by the shapes of sides that nobody has declared; nothing if gaps are
 /// not measured between shapes, or if nothing presses.
 pub fn shape_error(contact: &Contact, points: &[TracePoint]) -> Option<f64> {
     let shapes = contact.shapes.as_ref()?;
-    let pressing: Vec<&TracePoint> = points.iter().filter(|point| point.lambda > 0.0).collect();
-    let force: f64 = pressing.iter().map(|point| point.lambda).sum();
-    let mean = pressing.iter().map(|point| point.lambda * point.lambda).sum::<f64>() / force;
+    let pressing = pressing_places(points);
+    let length: f64 = pressing.iter().map(|(_, length)| length).sum();
+    let force: f64 = pressing.iter().map(|(point, length)| point.lambda * length).sum();
     // With both ends free a tilt moves what presses, and no more; at an axis, or at a line of symmetry, it is a ridge or a groove.
     let (boundary, middle) = (&contact.boundary, contact.boundary.parameter_at(0.5 * contact.boundary.length()));
     let is_on_axis = |end: f64| boundary.width(end) < ON_AXIS * boundary.width(middle);
     let is_free = contact.ends_with_a_body() == [false; 2] && !boundary.ends().into_iter().any(is_on_axis);
-    let slopes = shapes.each_ref().map(|curves| slope_error(curves, &pressing, is_free));
-    (force > 0.0 && contact.compliance > 0.0).then(|| 0.5 * slopes[0].hypot(slopes[1]) / (contact.compliance * mean))
+    let sides = shapes.each_ref().map(|curves| slope_errors(curves, &pressing));
+    let slope = slope_error(sides, &pressing, is_free);
+    (force > 0.0 && contact.compliance > 0.0).then(|| 0.5 * slope * length / (contact.compliance * force))
 }
 
-/// Error of the slopes of a side where it presses (radians), root mean square; without their mean, where that is no matter.
-fn slope_error(curves: &[Curve], pressing: &[&TracePoint], without_mean: bool) -> f64 {
+/// The places that press, each with the length that it stands for.
+fn pressing_places(points: &[TracePoint]) -> Vec<(&TracePoint, f64)> {
+    let arc = |k: usize| points[k].arc;
+    let last = points.len().saturating_sub(1);
+    let own = |k: usize| 0.5 * (arc((k + 1).min(last)) - arc(k.saturating_sub(1)));
+    (0..points.len()).filter(|&k| points[k].lambda > 0.0).map(|k| (&points[k], own(k))).collect()
+}
+
+/// Of the even nodes of a side, and of the odd ones.
+fn slope_errors(curves: &[Curve], pressing: &[(&TracePoint, f64)]) -> [SlopeErrors; 2] {
     let sides: Vec<NodedSide> = curves.iter().filter_map(NodedSide::of).collect();
-    let (mut first, mut second) = (Vec::new(), Vec::new());
-    for point in pressing {
+    let mut errors = [Vec::new(), Vec::new()];
+    for (point, _) in pressing {
         let away = |side: &&NodedSide| (side.all.point(side.all.nearest(point.x)) - point.x).norm_squared();
         let Some(side) = sides.iter().min_by(|a, b| away(a).total_cmp(&away(b))) else { continue };
-        first.push(apart(side.all, &side.second, point.x));
-        second.push(apart(&side.second, &side.fourth, point.x));
+        for (errors, [half, quarter]) in errors.iter_mut().zip(&side.halves) {
+            errors.push([apart(side.all, half, point.x), apart(half, quarter, point.x)]);
+        }
     }
-    let [first, second] = [first, second].map(|differences| deviation(&differences, without_mean));
-    // A share that stays on each coarser spline makes a series; what does not fall is all error.
-    let share = (first / second).max(1.0 / ORDER);
-    if share < 0.5 { first * share / (1.0 - share) } else { first }
+    errors
+}
+
+/// Error of the slopes of the gap (radians), root mean square: what both sides miss alike, as where they share their nodes, is no part of
+/// it. Of even and odd nodes the worse counts, paired across the contact as they agree best.
+fn slope_error([first, second]: [[SlopeErrors; 2]; 2], pressing: &[(&TracePoint, f64)], without_mean: bool) -> f64 {
+    let between = |a: &SlopeErrors, b: &SlopeErrors| {
+        let difference = |level: usize| {
+            let at = |errors: &SlopeErrors, k: usize| errors.get(k).map_or(0.0, |errors| errors[level]);
+            deviation(pressing.iter().enumerate().map(|(k, (_, length))| (at(a, k) - at(b, k), *length)), without_mean)
+        };
+        let (half, quarter) = (difference(0), difference(1));
+        // A share that stays on each coarser spline makes a series; what does not fall is all error.
+        let share = (half / quarter).max(1.0 / ORDER);
+        if share < 0.5 { half * share / (1.0 - share) } else { half }
+    };
+    let paired = |other: [usize; 2]| between(&first[0], &second[other[0]]).max(between(&first[1], &second[other[1]]));
+    paired([0, 1]).min(paired([1, 0]))
 }
 
 impl<'c> NodedSide<'c> {
     fn of(curve: &'c Curve) -> Option<Self> {
         let Curve::Spline(spline) = curve else { return None };
-        let second = spline.coarser()?;
-        let fourth = second.coarser().unwrap_or_else(|| second.clone());
-        Some(Self { all: curve, second: Curve::Spline(second), fourth: Curve::Spline(fourth) })
+        let with_quarter = |half: Spline| {
+            let quarter = half.through_half(false).unwrap_or_else(|| half.clone());
+            [half, quarter].map(Curve::Spline)
+        };
+        Some(Self { all: curve, halves: [with_quarter(spline.through_half(false)?), with_quarter(spline.through_half(true)?)] })
     }
 }
 
@@ -70,17 +100,18 @@ fn apart(one: &Curve, other: &Curve, x: Point) -> f64 {
     a.perp(&b).atan2(a.dot(&b))
 }
 
-/// Root mean square of values, or of what differs from their mean; 0 without any.
-fn deviation(values: &[f64], without_mean: bool) -> f64 {
-    let count = values.len().max(1) as f64;
-    let mean = if without_mean { values.iter().sum::<f64>() / count } else { 0.0 };
-    (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt()
+/// Root mean square of values, each with its weight, or of what differs from their mean; 0 without any.
+fn deviation(values: impl Iterator<Item = (f64, f64)>, without_mean: bool) -> f64 {
+    let [whole, first, second] = values.fold([0.0; 3], |[whole, first, second], (value, weight)| {
+        [whole + weight, first + weight * value, second + weight * value * value]
+    });
+    let mean = if without_mean { first / whole } else { 0.0 };
+    if whole > 0.0 { (second / whole - mean * mean).max(0.0).sqrt() } else { 0.0 }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Spline;
 
     /// Error of the slopes of the spline through points of a height over x, where it presses around the origin.
     fn off(height: impl Fn(f64) -> f64) -> f64 {
@@ -91,8 +122,12 @@ mod tests {
             let (displacement, stress, distance) = ([0.0; 2], [0.0; 2], [0.0; 2]);
             TracePoint { arc: x.x, x, normal: Point::y(), lambda: 1.0, displacement, slip: 0.0, stress, distance, gap: 0.0 }
         };
-        let pressing: Vec<TracePoint> = (-30..=30).map(at).collect();
-        slope_error(&[Curve::Spline(spline)], &pressing.iter().collect::<Vec<_>>(), true)
+        let points: Vec<TracePoint> = (-30..=30).map(at).collect();
+        let pressing = pressing_places(&points);
+        let own = slope_errors(&[Curve::Spline(spline)], &pressing);
+        let [alike, other] = [own.clone(), Default::default()].map(|other| slope_error([own.clone(), other], &pressing, true));
+        assert_eq!(alike, 0.0, "sides that share their nodes");
+        other
     }
 
     #[test]
@@ -103,6 +138,11 @@ mod tests {
         // Every third node is off by 1e-4: slopes by that over the distance of nodes.
         let scatter = off(|x| round(x) + if (20.0 * x).round() as i32 % 3 == 0 { 1e-4 } else { 0.0 });
         assert!((1e-3..5e-3).contains(&scatter), "{scatter}");
+        // A curvature that jumps at an even node, and at an odd one.
+        for junction in [0.2, 0.15] {
+            let jump = off(|x| 0.3 * (x.abs() - junction).max(0.0).powi(2));
+            assert!((5e-4..1e-2).contains(&jump), "{jump} at {junction}");
+        }
         // A ridge of two planes at .02 that nodes round off over two of their distances.
         let ridge = off(|x| 0.02 * x.abs());
         assert!((1e-3..1e-2).contains(&ridge), "{ridge}");

@@ -24,10 +24,16 @@ impl Spline {
         Self::of_spans(knots, spans, closed)
     }
 
-    /// The spline through every other point between its spans; nothing if these are too few.
-    pub fn coarser(&self) -> Option<Self> {
-        let last = self.knots.len() - 1;
-        let knots: Vec<f64> = (0..last).step_by(2).chain([last]).map(|k| self.knots[k]).collect();
+    /// The spline through every other point between its spans, the odd ones or the even ones, and through its ends; nothing if these are
+    /// too few.
+    pub fn through_half(&self, odd: bool) -> Option<Self> {
+        let (last, [begin, end]) = (self.knots.len() - 1, self.range());
+        let inner: Vec<f64> = (if odd { 1 } else { 2 }..last).step_by(2).map(|k| self.knots[k]).collect();
+        let knots: Vec<f64> = match self.closed && odd {
+            // A closed one has no end: it begins at the first of them.
+            true => inner.iter().copied().chain([inner.first()? + end - begin]).collect(),
+            false => [begin].into_iter().chain(inner).chain([end]).collect(),
+        };
         let points: Vec<Point> = knots.iter().map(|knot| self.point(*knot)).collect();
         let least = if self.closed { 4 } else { 2 };
         (points.len() >= least && points.len() <= last).then(|| Self::through(knots, &points, self.closed))

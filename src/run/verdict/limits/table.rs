@@ -122,8 +122,8 @@ pub static CORNERS: Limit = most((0.04, short,
     "\"{first}\" or \"{second}\" has corners of up to {angle} degrees within the contact, which change λ by about {value}"));
 
 /// `shape_error`: what the nodes of a boundary without a declared shape leave unknown of it, by what that does to λ. On Hertz contacts with
-/// coordinates of six digits .12 and .022 where λ was up to .29 and .065 off, 1e-9 with sixteen; on a rounded punch whose flat and arcs
-/// are one curve .25, and .017 with chords a fifth as long, where the largest λ was .13 and .012 off.
+/// coordinates of six digits .13 and .031 where λ was up to .29 and .065 off, 1e-9 with sixteen; on a rounded punch whose flat and arcs
+/// are one curve .29, and .017 with chords a fifth as long, where the largest λ was .13 and .012 off.
 pub static SHAPE: Limit = most((0.04, short,
     Words("give the shape by a [geometry]; write the mesh with all digits of its coordinates; give lines and arcs that go on as each other a name and a contact each, or finer edges where they meet"),
     "the nodes tell too little of a boundary's shape",
