@@ -8,15 +8,16 @@ use super::cut_off::ends_with_a_corner;
 use super::zone_ends::beyond;
 use crate::contact::{Configuration, SmoothSide, Zone};
 use crate::discretisation::{Contact, ContactPressure, Scene};
-use crate::geometry::Point;
 
-/// Places of a zone that are looked at.
+/// Places of a zone that are looked at: enough that some lie on either hand of one where curved sides are parallel.
 const PLACES: usize = 8;
 
-/// Share of the force of a contact from which a zone counts.
+/// Share of the force of a contact from which a zone counts: a smaller one turns the direction of the whole by a twentieth of its own
+/// error at most.
 const LEAST_SHARE: f64 = 0.05;
 
-/// Largest angle between Γ_C and a side on which a corner of the other one presses (radians), of the zones that count.
+/// Largest angle between Γ_C and a side on which a corner of the other one presses (radians), of the zones that count; `sides` are those
+/// of body 1 and of body 2 that meet. Corners are those of elastic bodies, and the ends of rigid tools.
 pub fn slant(scene: &Scene, pressure: &ContactPressure, sides: [&SmoothSide; 2]) -> f64 {
     let zones = pressure.zones();
     let shares = pressure.shares(&zones);
@@ -47,7 +48,7 @@ fn angle_to(side: &SmoothSide, pressure: &ContactPressure, zone: &Zone) -> f64 {
     let boundary = &pressure.contact.boundary;
     let angle = |k: usize| {
         let t = boundary.parameter_at(zone.arcs[0] + (k as f64 + 0.5) / PLACES as f64 * (zone.arcs[1] - zone.arcs[0]));
-        let (x, normal): (Point, Point) = (boundary.point(t) - side.shift, boundary.normal(t));
+        let (x, normal) = (boundary.point(t) - side.shift, boundary.normal(t));
         let tangent = side.curve(Configuration::Reference).tangent(side.nearest(x, Configuration::Reference));
         let across = tangent.perp(&normal);
         (tangent.dot(&normal) * across.signum()).atan2(across.abs())

@@ -156,7 +156,8 @@ pub struct ZoneSummary {
     pub peak: Option<f64>,
     /// Whether its largest pressure lies beside an end of the contact boundary, in the tenth that `whole` leaves out.
     pub peak_at_end: Option<bool>,
-    /// Whether λ grows without bound towards an end of the contact boundary, where materials meet, or at a corner of a side, as far as can be seen.
+    /// Whether λ grows without bound towards an end of the contact boundary, where materials meet, or at a corner of a side, as far
+    /// as can be seen.
     pub singular: Option<bool>,
     /// Whether it does so towards an end.
     pub singular_at_end: Option<bool>,
