@@ -19,10 +19,8 @@ pub const APART: f64 = 6.4e-2;
 /// points half-way between round bodies are told by their feet for a third of a right angle on either side.
 const LOOKS_BACK: f64 = -0.5;
 
-/// Sine of the angle to a right one up to which a side meets the axis of revolution as its own image: of a spline through vertices,
-/// and of a curve that is known. A spline through points of a circle 20 degrees apart misses the right angle by 7e-3, 10 degrees
-/// apart by 9e-4; a cone of fewer than 1.1 degrees that no `[geometry]` declares is taken for round.
-const SQUARE: [f64; 2] = [2e-2, 1e-9];
+/// Sine of the angle to a right one up to which a side meets the axis of revolution as its own image.
+const SQUARE: f64 = 1e-9;
 
 /// Displacement of a boundary node.
 pub type Displacement<'a> = &'a dyn Fn(EdgeNode) -> Point;
@@ -101,7 +99,8 @@ impl SmoothSide {
         let points: Vec<Point> = nodes.iter().zip(&places).map(|(&node, place)| place + displacement(node)).collect();
         let (hand, degree) = (if falls { -1.0 } else { 1.0 }, numbering.level.order.degree());
         let is_open_round = mesh.plane == Plane::Revolution && !closed;
-        let is_pole = |x: Point| is_open_round && x.x.abs() <= 1e-9 * along.norm() && is_square(&stretch.curve, x);
+        let slope = |x: Point| stretch.curve.tangent(stretch.curve.nearest(x)).y;
+        let is_pole = |x: Point| is_open_round && x.x.abs() <= 1e-9 * along.norm() && slope(x).abs() <= SQUARE;
         let poles = if falls { [ends[1], ends[0]] } else { ends }.map(is_pole);
         Self { poles, ..Self::through(stretch.curve.clone(), places, points, hand, degree, closed) }
     }
@@ -291,13 +290,6 @@ impl SmoothSide {
         };
         Some(SideGaps { now: initial + opened, at_rest: initial, facing, is_inside })
     }
-}
-
-/// Whether a curve meets the axis of revolution at a right angle in a place.
-fn is_square(curve: &Curve, place: Point) -> bool {
-    let [of_spline, of_known] = SQUARE;
-    let most = if matches!(curve, Curve::Spline(_)) { of_spline } else { of_known };
-    curve.tangent(curve.nearest(place)).y.abs() <= most
 }
 
 /// Whether points go round clockwise.

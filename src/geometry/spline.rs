@@ -1,7 +1,9 @@
-//! Parametric cubic splines: `through` points in `interpolation.rs`, fitted to samples in `least_squares.rs`.
+//! Parametric cubic splines: `through` points in `interpolation.rs`, with their mirror images in `mirrored.rs`, fitted to samples in
+//! `least_squares.rs`.
 
 mod interpolation;
 mod least_squares;
+mod mirrored;
 
 pub use interpolation::chord_lengths;
 pub use least_squares::FitSample;
@@ -18,6 +20,8 @@ pub struct Spline {
     spans: Vec<[Point; 4]>,
     /// Whether it ends where it begins, as smooth there as elsewhere.
     closed: bool,
+    /// Directions of the lines of symmetry through its ends, where it goes on as its own image.
+    mirrors: [Option<Point>; 2],
     /// Points of it, equally many in each span, from which the nearest one to another point is looked for.
     points: PointRow,
 }
@@ -31,7 +35,7 @@ const POINTS_IN_A_SPAN: usize = 4;
 impl Spline {
     /// The spline of spans with these coefficients, between knots of which there is one more.
     fn of_spans(knots: Vec<f64>, spans: Vec<[Point; 4]>, closed: bool) -> Self {
-        let mut spline = Self { knots, spans, closed, points: PointRow::default() };
+        let mut spline = Self { knots, spans, closed, mirrors: [None; 2], points: PointRow::default() };
         let (in_a_span, last) = (spline.parts() / spline.spans.len(), spline.knots.len() - 1);
         let part = |k: usize| at(&spline.spans[k / in_a_span], spline.part_end(k) - spline.knots[k / in_a_span])[0];
         let end = at(&spline.spans[last - 1], spline.knots[last] - spline.knots[last - 1])[0];

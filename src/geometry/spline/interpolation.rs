@@ -36,7 +36,7 @@ impl Spline {
         };
         let points: Vec<Point> = knots.iter().map(|knot| self.point(*knot)).collect();
         let least = if self.closed { 4 } else { 2 };
-        (points.len() >= least && points.len() <= last).then(|| Self::through(knots, &points, self.closed))
+        (points.len() >= least && points.len() <= last).then(|| Self::through(knots, &points, self.closed).mirrored(self.mirrors))
     }
 }
 

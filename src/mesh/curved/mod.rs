@@ -3,6 +3,7 @@
 mod boundary_vertex;
 mod bow;
 mod midside;
+mod mirror;
 mod shape;
 mod smooth_normal;
 mod spline_shape;

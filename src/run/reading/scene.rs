@@ -59,6 +59,8 @@ fn completed(case: &Case, mut mesh: MacroMesh) -> Result<MacroMesh, String> {
     let fitted = case.contacts.iter().filter(|pair| pair.curve.is_found()).flat_map(|pair| &pair.between);
     let fitted = fitted.filter(|name| case.tool_of(name).is_none());
     mesh.bend_onto_splines(&fitted.collect::<Vec<_>>());
+    let mirrors: Vec<u32> = case.supports.iter().flat_map(|support| support.mirrors(&mesh)).collect();
+    mesh.square_splines(mirrors.into_iter());
     add_points(case, &mut mesh)?;
     add_grades(case, &mut mesh)?;
     check_moduli(case)?;
