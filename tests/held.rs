@@ -488,7 +488,7 @@ load.bore = { on = "hub.in", pressure = 100.0 }
     for ranks in ranks_in_turn(0) {
         let ended = Run::file(&file).ranks(ranks).ended();
         assert_eq!(ended.code, Some(3), "{}", ended.said());
-        assert!(ended.said().contains("nothing drives that: hold it by u"), "{}", ended.said());
+        assert!(ended.said().contains("no load of its own drives that: hold it by u"), "{}", ended.said());
     }
     let held = Run::file(&file).set("support.inner.ux", 0.0).set("support.inner.uy", 0.0).converged();
     assert!(held.said().contains("nothing presses on contact first"), "{}", held.said());

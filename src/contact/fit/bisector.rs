@@ -30,6 +30,9 @@ const CENTRED: f64 = 1e-3;
 /// 1003 discs takes some 5 s without these corrections, and 8 s with them.
 const STALLED: f64 = 0.7;
 
+/// Share of a curve from pole to pole that is shown beyond each: with both halves of the images less than half a turn.
+const SHOWN: f64 = 0.25;
+
 /// The curve half-way between two sides.
 pub struct Bisector {
     /// The curve; its parameter is that of the first side.
@@ -82,8 +85,8 @@ impl Bisector {
             ));
         }
         let curves = sides.map(|side| side.curve(pair.configuration));
-        let pole = pole_between(sides, nodes);
-        let fit = |points: &[Halfway]| Curve::Spline(fit_by_the_data(&samples(points, pole), pair.spans, turn));
+        let poles = poles_between(sides, nodes);
+        let fit = |points: &[Halfway]| Curve::Spline(fit_by_the_data(&samples(points, &poles), pair.spans, turn));
         let mut curve = fit(&points);
         let whole = points[points.len() - 1].parameter - points[0].parameter;
         let mut before = (f64::INFINITY, 0);
@@ -111,19 +114,28 @@ impl Bisector {
     }
 }
 
-/// Parameter of the first side at which both sides meet the axis of revolution at a right angle, within these nodes.
-fn pole_between(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2]) -> Option<f64> {
-    let [first, second] = [0, 1].map(|k| sides[k].poles().find(|pole| nodes[k].contains(pole)));
-    second.and(first).map(|pole| sides[0].parameters[pole])
+/// Parameters of the first side at which both sides meet the axis of revolution at a right angle, within these nodes: two where a body
+/// lies in another one, with all of its section.
+fn poles_between([first, second]: [&SmoothSide; 2], nodes: &[Range<usize>; 2]) -> Vec<f64> {
+    let own = || first.poles().filter(|pole| nodes[0].contains(pole));
+    let nearest = |other: usize| {
+        let away = |pole: &usize| (first.places[*pole] - second.places[other]).norm();
+        own().min_by(|a, b| away(a).total_cmp(&away(b))).map(|pole| first.parameters[pole])
+    };
+    second.poles().filter(|pole| nodes[1].contains(pole)).filter_map(nearest).collect()
 }
 
-/// What the curve is fitted to, ascending: points half-way, and beyond a pole their images at the other side of the axis, without
-/// which the curve may meet the axis at any angle, and leave it.
-fn samples(points: &[Halfway], pole: Option<f64>) -> Vec<FitSample> {
+/// What the curve is fitted to, ascending: points half-way, and beyond poles their images at the other side of the axis, without
+/// which the curve may meet the axis at any angle, and leave it. Of two poles each shows what is near it, or the images would meet.
+fn samples(points: &[Halfway], poles: &[f64]) -> Vec<FitSample> {
     let between = || points.iter().filter(|point| point.is_between);
-    let image = |at: f64| between().map(move |point| (2.0 * at - point.parameter, reflected(point.place), point.weight));
+    let reach = if let [one, other] = poles { SHOWN * (other - one).abs() } else { f64::INFINITY };
+    let image = |&at: &f64| {
+        let near = between().filter(move |point| (point.parameter - at).abs() <= reach);
+        near.map(move |point| (2.0 * at - point.parameter, reflected(point.place), point.weight))
+    };
     let mut samples: Vec<FitSample> = between().map(|point| (point.parameter, point.place, point.weight)).collect();
-    samples.extend(pole.into_iter().flat_map(image));
+    samples.extend(poles.iter().flat_map(image));
     samples.sort_by(|a, b| a.0.total_cmp(&b.0));
     samples
 }
@@ -143,6 +155,7 @@ fn limits(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair, curve
         let last = side.points.len() - 1;
         for node in [0, last].into_iter().filter(|node| nodes.contains(node)) {
             let foot = curve.nearest(side.positions(pair.configuration)[node]);
+            let foot = if side.poles().any(|pole| pole == node) { on_axis(curve, foot) } else { foot };
             if foot < middle {
                 let nearest = if ends[0] { limits[0] } else { data[0] - beyond };
                 (limits[0], ends[0]) = (nearest.max(foot), true);
@@ -153,6 +166,11 @@ fn limits(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair, curve
         }
     }
     limits
+}
+
+/// Parameter at which a curve crosses the axis of revolution, near another one: beyond it nothing of a body would be across.
+fn on_axis(curve: &Curve, near: f64) -> f64 {
+    (0..2).fold(near, |t, _| t - curve.point(t).x / curve.derivative(t).x)
 }
 
 /// Even spans that samples, ascending, fill with two each at least: one without any would be anything.
