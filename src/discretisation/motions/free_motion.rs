@@ -107,7 +107,9 @@ impl FreeMotion<'_> {
         let terms = |k: usize| places().map(|x| (x, rigid_displacement(middle, &UNIT_MOTIONS[k], x))).collect::<Vec<_>>();
         let k = able.iter().copied().find(|&k| self.is_held_by(&terms(k), touches)).or(able.first().copied())?;
         Some(match before {
-            Some(hold) => format!("no load of its own drives that: hold it by {} = 0.0 in support.{}, too", MOTIONS[k], hold.name),
+            Some(hold) => {
+                format!("no load of its own drives that: hold it by {} = 0.0 in support.{}, too", MOTIONS[k], hold.name)
+            }
             None => format!(
                 "no load of its own drives that: hold its mean, for example by a support with mean = true, body = \"{name}\" and {} = 0.0",
                 MOTIONS[k]
