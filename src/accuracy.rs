@@ -120,6 +120,12 @@ pub struct Adaptation {
 /// Edges that the narrowest contact which counts has at least: on less than one no element can bend to a pressure.
 pub const NARROWEST: f64 = 1.0;
 
+/// Force that overlaps within segments are worth, as a share of the force that was found, beyond which a contact is not resolved.
+pub const WORTH_WITHIN_SEGMENTS: f64 = 0.5;
+
+/// Force of a contact narrower than its segment by that of an overlap within it at most (Hertz): π / (4 ln(4 R/b) - 2), and R > 5 b.
+pub const HERTZ_BY_UNRESOLVED: f64 = 0.32;
+
 /// The share of the largest force of all contacts below which one only touches: the smallest error that is asked for, if any is.
 pub fn share_of_nothing(asked: Option<&Accuracy>) -> f64 {
     let goals = asked.iter().flat_map(|asked| &asked.goals);

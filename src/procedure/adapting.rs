@@ -3,7 +3,7 @@
 
 use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity, SequenceEnd};
 use crate::discretisation::{Contact, Scene, SystemError};
-use crate::mesh::Cells;
+use crate::mesh::{Cells, Partition};
 use crate::petsc::StageGuard;
 use crate::procedure::ending::MOVES;
 use crate::procedure::estimates::{Duals, Estimate, weighted};
@@ -168,10 +168,8 @@ impl Procedure<'_> {
             if tells_nothing(&local) {
                 local = self.gathered(scene, left, falls);
             }
-            let narrow = goal.quantity.contact().filter(|_| solved.ending.is_converged() && tells_nothing(&local));
-            let narrow = narrow.filter(|name| carries(solved, name, goal.tolerance));
-            if let Some(contact) = narrow {
-                let beside = beside(solved, contact, self.session.rank());
+            if let Some(contact) = self.not_held_by_mesh(solved, goal, tells_nothing(&local))? {
+                let beside = beside(contact, &scene.partition, self.session.rank());
                 local = self.gathered(scene, &beside, &vec![FALL_BESIDE; beside.len()]);
             }
             let error = error.map(|error| error / goal.tolerance);
@@ -179,6 +177,23 @@ impl Procedure<'_> {
             all.push(Indicators { local, error, pace, is_norm: goal.quantity.is_norm() });
         }
         Ok(all)
+    }
+
+    /// The contact beside which the mesh is refined for a goal: one that it cannot hold, or of which nothing tells an error. **Collective**
+    fn not_held_by_mesh<'s>(
+        &self,
+        solved: &'s Solved,
+        goal: &Goal,
+        tells_nothing: bool,
+    ) -> Result<Option<&'s Contact>, SystemError> {
+        if !solved.ending.is_converged() {
+            return Ok(None);
+        }
+        if let Some(contact) = self.kept_by(goal, solved)? {
+            return Ok(Some(contact));
+        }
+        let name = goal.quantity.contact().filter(|name| tells_nothing && carries(solved, name, goal.tolerance));
+        Ok(solved.problem.contacts.iter().find(|contact| name.is_some_and(|name| contact.pair.name == name)))
     }
 
     /// The dual displacement of each goal that is missed, where the solution has one. **Collective**
@@ -217,11 +232,10 @@ fn carries(Solved { problem, solution, .. }: &Solved, name: &str, share: f64) ->
 /// Indicators of the macro triangles of a rank that count those beside a contact alone: nothing tells an error of it, and the mesh may be
 /// too coarse to hold it. A disc spring whose edges press on plates had no estimate of its force with 446 thousand unknowns, refined all
 /// over; refined beside its contacts it has one of 1.3e-2 with 88 thousand.
-fn beside(Solved { problem, .. }: &Solved, name: &str, rank: usize) -> Vec<Cells> {
-    let own = problem.contacts.iter().filter(|contact| contact.pair.name == name);
-    let touched: HashSet<usize> = own.flat_map(|contact| contact.edges.iter().flatten()).map(|edge| edge.triangle).collect();
+fn beside(contact: &Contact, partition: &Partition, rank: usize) -> Vec<Cells> {
+    let touched: HashSet<usize> = contact.edges.iter().flatten().map(|edge| edge.triangle).collect();
     let counts = |triangle: &u32| f64::from(u8::from(touched.contains(&(*triangle as usize))));
-    problem.scene.partition.triangles_of(rank).iter().map(|triangle| Cells::new(|_| counts(triangle))).collect()
+    partition.triangles_of(rank).iter().map(|triangle| Cells::new(|_| counts(triangle))).collect()
 }
 
 /// Whether the estimate of a goal that is missed has not fallen for some meshes.

@@ -1,12 +1,12 @@
 //! Estimated errors of the goals of an accuracy.
 
-use crate::accuracy::{Goal, ProbePoint, Quantity};
-use crate::contact::Zone;
+use crate::accuracy::{Goal, HERTZ_BY_UNRESOLVED, ProbePoint, Quantity, WORTH_WITHIN_SEGMENTS};
+use crate::contact::{Law, Zone};
 use crate::discretisation::{Contact, Discretisation, Field, SystemError, needed_contacts};
 use crate::procedure::estimates::AtEnds;
 use crate::procedure::settings::Procedure;
 use crate::procedure::solved::Solved;
-use crate::recovery::trace_points;
+use crate::recovery::{trace_points, unresolved_force};
 
 /// Error of λ above which it is not known where it presses.
 const MOST_UNKNOWN: f64 = 0.08;
@@ -14,23 +14,36 @@ const MOST_UNKNOWN: f64 = 0.08;
 /// Share of the largest force up to which it is asked whether a contact carries less than is asked for.
 const SMALL: f64 = 0.5;
 
-/// Force by E_c and a depth d that a contact on a short length is worth at most: by Hertz π E_c d / (4 ln(4 R/b) - 2), and R > 5 b.
-const WORTH: f64 = 0.32;
-
 /// Differences in the energy norm that say that the solution was there before.
 const ROUNDING: f64 = 1e-6;
 
 impl Procedure<'_> {
-    /// The estimated relative error of a goal; nothing where there is not enough to tell, or where it would be reached, but its
-    /// contact presses on less than an edge. **Collective**
+    /// The estimated relative error of a goal; nothing where there is not enough to tell, or where it would be reached, but the mesh
+    /// does not hold a contact that counts. **Collective**
     pub(super) fn goal_error(&self, goal: &Goal, solved: &Solved) -> Result<Option<f64>, SystemError> {
         let error = self.estimated_error(goal, solved)?;
-        let contact = goal.quantity.contact().and_then(|name| contact_called(&solved.problem, name));
-        let is_reached = error.is_some_and(|error| error <= goal.tolerance);
-        Ok(match contact.filter(|_| is_reached) {
-            Some(at) if self.is_too_narrow(solved, at, goal.tolerance)? => None,
-            _ => error,
-        })
+        Ok(if self.unresolved_contact(goal, error, solved)?.is_some() { None } else { error })
+    }
+
+    /// A contact that is not resolved though a goal with this `error` is reached: that of the goal, or any where it is none of one contact, which
+    /// carries more than the goal's tolerance of the largest force. Meshes that do not hold a contact may agree on its force, and on
+    /// the energy. **Collective**
+    fn unresolved_contact(&self, goal: &Goal, error: Option<f64>, solved: &Solved) -> Result<Option<usize>, SystemError> {
+        let contacts = &solved.problem.contacts;
+        let of_goal = |at: &usize| goal.quantity.contact().is_none_or(|name| contacts[*at].pair.name == name);
+        let all = if error.is_some_and(|error| error <= goal.tolerance) { 0..contacts.len() } else { 0..0 };
+        for at in all.filter(of_goal).filter(|&at| contacts[at].pair.law == Law::Unilateral) {
+            if self.is_unresolved(solved, at, goal.tolerance)? {
+                return Ok(Some(at));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The contact that keeps a goal from being reached, though its estimate is small enough. **Collective**
+    pub(super) fn kept_by<'s>(&self, goal: &Goal, solved: &'s Solved) -> Result<Option<&'s Contact>, SystemError> {
+        let at = self.unresolved_contact(goal, self.estimated_error(goal, solved)?, solved)?;
+        Ok(at.map(|at| &solved.problem.contacts[at]))
     }
 
     /// What is estimated of one goal. **Collective**
@@ -83,23 +96,28 @@ impl Procedure<'_> {
         let complete = points.iter().filter(|point| point.is_complete());
         let depth = complete.map(|point| -point.gap * contact.boundary.width_at(point.x)).fold(0.0, f64::max);
         let modulus = contact.moduli.iter().copied().fold(0.0, f64::max);
-        let worth = WORTH * modulus * depth;
+        let worth = HERTZ_BY_UNRESOLVED * modulus * depth;
         let is_needed = || needed_contacts(problem, &solution.active, self.session)[at];
         Ok(if own + worth > tolerance * largest && is_needed() { own } else { own + worth } / largest)
     }
 
-    /// Whether what a contact carries beyond a share of the largest force presses on less than an edge: meshes that do not hold a
-    /// contact may agree on its force. **Collective**
-    fn is_too_narrow(&self, solved: &Solved, at: usize, tolerance: f64) -> Result<bool, SystemError> {
+    /// Whether what a contact carries beyond a share of the largest force presses on less than an edge, or bodies lie in each other within
+    /// segments that are longer than what presses. **Collective**
+    fn is_unresolved(&self, solved: &Solved, at: usize, tolerance: f64) -> Result<bool, SystemError> {
         let Solved { problem, solution, .. } = solved;
-        let largest = problem.contacts.iter().map(|contact| solution.pressure(contact).force().abs()).fold(0.0, f64::max);
-        let (pressure, least) = (solution.pressure(&problem.contacts[at]), tolerance * largest);
-        if !pressure.has_few_edges(least) {
+        let force = |contact: &Contact| solution.pressure(contact).force().abs();
+        let (contact, own) = (&problem.contacts[at], force(&problem.contacts[at]));
+        let least = tolerance * problem.contacts.iter().map(force).fold(0.0, f64::max);
+        if own <= least {
             return Ok(false);
         }
         let u = Field::displacement(problem, &solution.displacement, self.session);
+        let pressure = solution.pressure(contact);
         let points = trace_points(problem, &pressure, &u, self.session)?;
-        Ok(pressure.is_too_narrow(&problem.scene.mesh, &points, least))
+        let off = unresolved_force(contact, &points, 0.0);
+        let is_within_segments = off > WORTH_WITHIN_SEGMENTS * own && HERTZ_BY_UNRESOLVED * off > least;
+        let has_few_edges = pressure.has_few_edges(least);
+        Ok(is_within_segments || has_few_edges && pressure.is_too_narrow(&problem.scene.mesh, &points, least))
     }
 
     /// Errors of displacement and stress at a point.

@@ -22,7 +22,7 @@ const OPENS: f64 = PI / 60.0;
 const NEAR: f64 = 0.01;
 
 impl ContactPressure<'_> {
-    /// λ where a zone presses up to an end of Γ_C, by the largest λ of the zone, if a named boundary ends there, both bodies go on
+    /// λ where a zone presses up to an end of Γ_C, by the largest λ of the zone, if a named boundary, or a piece of one, ends there, both bodies go on
     /// smoothly, and none of `all` contacts begins there: what presses beyond is left out. The larger one of both ends; 0 if
     /// neither is such an end.
     pub fn cut_off(&self, mesh: &MacroMesh, zone: &Zone, all: &[Contact]) -> f64 {
@@ -61,8 +61,29 @@ fn goes_on(contact: &Contact, mesh: &MacroMesh, end: usize) -> bool {
     }
     let reach = beyond(contact, mesh, end);
     let has_ended = |side: &usize| reach[*side].abs() < SAME;
-    let mut ended = [0, 1].into_iter().filter(has_ended).peekable();
-    ended.peek().is_some() && reach.iter().all(|reach| *reach > -SAME) && ended.all(|side| is_smooth(contact, mesh, side, end))
+    let ended: Vec<usize> = [0, 1].into_iter().filter(has_ended).collect();
+    if ended.is_empty() {
+        return contact.ends_with_a_body()[end]
+            && reach.iter().all(|reach| *reach > SAME)
+            && goes_on_in_another_shape(contact, mesh, end);
+    }
+    reach.iter().all(|reach| *reach > -SAME) && ended.into_iter().all(|side| is_smooth(contact, mesh, side, end))
+}
+
+/// Whether no side has a corner beside an end of Γ_C where pieces of sides end that the mesh knows by their shapes, and not by their names:
+/// a crown of two radii pressed on the first one alone, with a contact 6 % too narrow.
+fn goes_on_in_another_shape(contact: &Contact, mesh: &MacroMesh, end: usize) -> bool {
+    let here = contact.boundary.point(contact.boundary.ends()[end]);
+    let around = mesh.boundary_vertices();
+    [0, 1].into_iter().all(|side| {
+        let vertices = mesh.edges_of(&contact.pair.between[side]).iter().flat_map(|&edge| mesh.edges[edge as usize].vertices);
+        let away = |vertex: &u32| (mesh.vertices[*vertex as usize] - here).norm_squared();
+        let nearest = vertices.min_by(|a, b| away(a).total_cmp(&away(b)));
+        around
+            .iter()
+            .find(|found| Some(found.vertex) == nearest)
+            .is_some_and(|found| (-OPENS..SMOOTH).contains(&(found.angle - PI)))
+    })
 }
 
 /// Whether a body goes on smoothly where its boundary ends.

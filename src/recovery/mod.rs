@@ -47,7 +47,7 @@ pub use deformation::Deformation;
 pub use evaluation::Evaluation;
 pub use heat::{HeatEnergy, heat_energies};
 pub use motion_error::MotionError;
-pub use overlaps::missing_beyond;
+pub use overlaps::{missing_beyond, unresolved_force};
 pub use probe::{Probed, Probing, holding, probe, shapes_at, stress_around, stress_forces};
 pub use stress::NodalStress;
 pub use stress_peaks::{StressPeak, largest_stresses};

@@ -96,7 +96,7 @@ pub static WITHIN_SEGMENTS: Limit = most((0.1, two, MoreSegments, "the bodies pe
 /// `zones[].cut_off`: λ where a zone is cut off, by its largest: half an ellipse that is cut off at both ends where it has a tenth of its
 /// height lacks 4e-4 of its force.
 pub static CUT_OFF: Limit = most((0.1, two,
-    Words("name what lies beyond in this contact, too, or in one of its own that begins there"),
+    Words("name what lies beyond in this contact, too, or give it a name and a contact of its own that begins there"),
     "contact goes on beyond the end of its boundary",
     "it presses up to an end of its boundary, with {value} of its largest λ there, and both bodies go on beyond"));
 
@@ -218,14 +218,6 @@ pub const PASSED_THROUGH: f64 = 0.05;
 /// largest displacement is what the solve leaves.
 pub const DEEPEST: f64 = 0.1;
 pub const LEFT: f64 = 1e-6;
-
-/// Force that overlaps within segments are worth, as a share of the force that was found; where nothing presses, `OVERLAP_ALONE`
-/// counts.
-pub const WORTH_WITHIN_SEGMENTS: f64 = 0.5;
-
-/// Force of a contact narrower than its segment by that of `unresolved_force` at most (Hertz): π / (4 ln(4 R/b) - 2), and R > 5
-/// b.
-pub const HERTZ_BY_UNRESOLVED: f64 = 0.32;
 
 /// Relative error of a force by turning and sliding of its bodies. What is estimated is .55 to 1.5 times the true error
 /// (`tests/turning.rs`); a pile that cannot stand stood with .55, since turned discs are larger ones.
