@@ -2,7 +2,8 @@
 //! reached.
 
 use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity, SequenceEnd};
-use crate::discretisation::{Contact, Scene, SystemError};
+use crate::discretisation::{Contact, ContactPressure, Scene, SystemError};
+use crate::geometry::Point;
 use crate::mesh::{Cells, Partition};
 use crate::petsc::StageGuard;
 use crate::procedure::ending::MOVES;
@@ -169,7 +170,7 @@ impl Procedure<'_> {
                 local = self.gathered(scene, left, falls);
             }
             if let Some(contact) = self.not_held_by_mesh(solved, goal, tells_nothing(&local))? {
-                let beside = beside(contact, &scene.partition, self.session.rank());
+                let beside = beside(&solved.solution.pressure(contact), &scene.partition, self.session.rank());
                 local = self.gathered(scene, &beside, &vec![FALL_BESIDE; beside.len()]);
             }
             let error = error.map(|error| error / goal.tolerance);
@@ -229,11 +230,17 @@ fn carries(Solved { problem, solution, .. }: &Solved, name: &str, share: f64) ->
     problem.contacts.iter().any(|contact| contact.pair.name == name && force(contact) > share * largest)
 }
 
-/// Indicators of the macro triangles of a rank that count those beside a contact alone: nothing tells an error of it, and the mesh may be
+/// Indicators of the macro triangles of a rank that count those alone that lie where a contact presses, or a segment from there: nothing tells an error of it, and the mesh may be
 /// too coarse to hold it. A disc spring whose edges press on plates had no estimate of its force with 446 thousand unknowns, refined all
 /// over; refined beside its contacts it has one of 1.3e-2 with 88 thousand.
-fn beside(contact: &Contact, partition: &Partition, rank: usize) -> Vec<Cells> {
-    let touched: HashSet<usize> = contact.edges.iter().flatten().map(|edge| edge.triangle).collect();
+fn beside(pressure: &ContactPressure, partition: &Partition, rank: usize) -> Vec<Cells> {
+    let (contact, boundary, zones) = (pressure.contact, &pressure.contact.boundary, pressure.zones());
+    let is_near = |place: &Point| {
+        let (segment, _) = boundary.locate(boundary.foot(*place));
+        zones.is_empty() || zones.iter().any(|zone| (zone.segments.start..zone.segments.end + 2).contains(&(segment + 1)))
+    };
+    let edges = contact.edges.iter().flatten().filter(|edge| edge.places.iter().any(is_near));
+    let touched: HashSet<usize> = edges.map(|edge| edge.triangle).collect();
     let counts = |triangle: &u32| f64::from(u8::from(touched.contains(&(*triangle as usize))));
     partition.triangles_of(rank).iter().map(|triangle| Cells::new(|_| counts(triangle))).collect()
 }

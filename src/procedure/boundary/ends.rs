@@ -17,8 +17,11 @@ const TELLING_BESIDE_A_FORCE: f64 = 0.9;
 /// half-spaces showed 1.3 on six.
 const MISSED: [f64; 2] = [2.0, 1.0];
 
-/// And by this share of how far the ends still are from where the force puts them: `√(r + η)` was taken for a series of two terms.
+/// And by this share of how far the ends still are from both places: `√(r + η)` was taken for a series of two terms.
 const MISSED_BESIDE: f64 = 0.5;
+
+/// Ends that the pressure has placed stay with it up to this share of that, so that they do not go to and fro: above what half-spaces show.
+const STAYS: f64 = 0.75;
 
 /// An end of Γ_C lies at the end of a body if less than this share of an edge is between them.
 const AT_THE_END: f64 = 1e-2;
@@ -129,10 +132,11 @@ fn pressure_says_otherwise(pressure: &ContactPressure, forced: [f64; 2], pressin
     };
     let width = |ends: [f64; 2]| ends[1] - ends[0];
     let [by_force, by_pressure] = [width(forced), told(1) - told(0)];
-    let missed = (width(now) - by_force).abs();
+    let [missed, off] = [by_force, by_pressure].map(|told| (width(now) - told).abs());
     let is_at_pole = contact.known.touch.is_some_and(|touch| touch.is_at_pole());
-    let share = MISSED[usize::from(is_at_pole)] / (pressing * pressing) as f64;
-    (by_pressure - by_force).abs() > share * by_force + MISSED_BESIDE * missed
+    let stays = if off < missed { STAYS } else { 1.0 };
+    let share = stays * MISSED[usize::from(is_at_pole)] / (pressing * pressing) as f64;
+    (by_pressure - by_force).abs() > share * by_force + MISSED_BESIDE * missed.min(off)
 }
 
 /// Segments from the first that presses to the last.

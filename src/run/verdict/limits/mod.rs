@@ -65,12 +65,13 @@ impl Limit {
 
     /// A doubt, whatever the value is.
     pub fn doubt(&'static self, value: f64, named: &[(&str, &str)]) -> Doubt {
-        let word = |name: &str| match name {
-            "value" => (self.digits)(value),
-            "limit" => self.value.to_string(),
+        let word = |name: &str| match (named.iter().find(|(known, _)| *known == name), name) {
+            (Some((_, word)), _) => (*word).into(),
+            (None, "value") => (self.digits)(value),
+            (None, "limit") => self.value.to_string(),
             // In the digits of the value, where both may be near each other.
-            "bound" => (self.digits)(self.value),
-            _ => named.iter().find(|(known, _)| *known == name).map_or(String::new(), |(_, word)| (*word).into()),
+            (None, "bound") => (self.digits)(self.value),
+            _ => String::new(),
         };
         // Names come from files and may hold braces: only those of the sentence are looked for.
         let parts = self.words.split(['{', '}']).enumerate();

@@ -4,7 +4,7 @@ use super::beyond::doubts_beyond;
 use super::remedies::{CUT, Mended};
 use super::told::{Objection, Verdict};
 use super::zones::{fewest_edges, is_on_few_segments, is_proved, overlaps, unknown_of, zone_doubts};
-use crate::accuracy::share_of_nothing;
+use crate::accuracy::{Quantity, share_of_nothing};
 use crate::case::Case;
 use crate::contact::{Pair, Quadrature};
 use crate::output::Summary;
@@ -14,6 +14,9 @@ use crate::run::verdict::limits::{
 };
 use crate::run::verdict::no_result::{balance_doubts, is_strained};
 use crate::run::words::short;
+
+/// A contact boundary is closed if its ends are apart by less than this share of what presses.
+const SAME_END: f64 = 1e-9;
 
 /// What a contact without force is called.
 const NOTHING_PRESSES: &str = "nothing presses";
@@ -45,9 +48,10 @@ pub fn verdict(summary: &Summary, contact: &ContactSummary, mended: Mended, conv
     doubts.extend(unbalanced);
     doubts.extend(FORCE.judge(force, &[]).filter(|_| carries));
     let beyond = doubts_beyond(summary, contact, case, carries);
-    let trust_force = trust_force.map(|trust| trust && beyond.is_empty());
+    let shapes: Vec<Doubt> = shape_doubts(contact, pair, case).into_iter().filter(|_| carries).collect();
+    let trust_force = trust_force.map(|trust| trust && beyond.is_empty() && (shapes.is_empty() || !goes_round(contact)));
     doubts.extend(beyond);
-    doubts.extend(shape_doubts(contact, &pair.between).filter(|_| carries));
+    doubts.extend(shapes);
     let unknown = uncut(pair).or_else(|| unknown_of(contact, trust_force, mended.by(Remedy::MoreSegments)));
     let unknown = unknown.filter(|_| carries);
     let trust = if doubts.is_empty() { unknown.is_none().then_some(true) } else { Some(false) };
@@ -94,10 +98,25 @@ fn uncut(pair: &Pair) -> Option<Objection> {
     (pair.quadrature != Quadrature::Cut).then(|| Objection { cause, words: cause.into(), remedy: Some(CUT.into()) })
 }
 
-/// What tells that bodies press with corners that the smooth contact boundary has not, or in shapes that their nodes do not tell.
-pub fn shape_doubts(contact: &ContactSummary, [first, second]: &[String; 2]) -> impl Iterator<Item = Doubt> {
+/// What tells that bodies press with corners that the smooth contact boundary has not, or in shapes that their nodes tell less well than
+/// is asked for.
+pub fn shape_doubts(contact: &ContactSummary, pair: &Pair, case: &Case) -> Vec<Doubt> {
     let angle = format!("{:.0}", contact.corner_angle.unwrap_or(f64::NAN));
-    let named: [(&str, &str); 3] = [("first", first), ("second", second), ("angle", &angle)];
-    let figures = [(&CORNERS, contact.corner_error), (&SHAPE, contact.shape_error)];
-    figures.map(|(limit, value)| limit.judge(value, &named)).into_iter().flatten()
+    let asked = case.accuracy.iter().flat_map(|accuracy| &accuracy.goals).filter(|goal| match &goal.quantity {
+        Quantity::Pressure(name) | Quantity::Peak(name) => *name == pair.name,
+        Quantity::Force(name) => *name == pair.name && goes_round(contact),
+        _ => false,
+    });
+    let most = asked.map(|goal| goal.tolerance).fold(SHAPE.value, f64::min);
+    let limit = most.to_string();
+    let named: [(&str, &str); 4] =
+        [("first", &pair.between[0]), ("second", &pair.between[1]), ("angle", &angle), ("limit", &limit)];
+    let shape = contact.shape_error.filter(|error| *error > most).map(|error| SHAPE.doubt(error, &named));
+    CORNERS.judge(contact.corner_error, &named[..3]).into_iter().chain(shape).collect()
+}
+
+/// Whether a contact boundary goes all around: its force is then no resultant that loads could tell, and is as far off as its pressure.
+fn goes_round(contact: &ContactSummary) -> bool {
+    let apart = contact.ends.map(|[[x, y], [u, v]]| (u - x).hypot(v - y));
+    apart.zip(contact.width()).is_some_and(|(apart, width)| apart < SAME_END * width)
 }
