@@ -146,3 +146,48 @@ accuracy = {{ pressure = 5e-3, peak = 1e-2 }}
         1.5 * 2000.0 / (PI * width * width),
     );
 }
+
+/// A crown of two radii that go on as each other, with the shape of each: Γ_C lies on the arc that touches first, and at this force contact
+/// has gone on beyond it. On the arc alone it is 6 % too narrow.
+#[test]
+fn contact_that_goes_on_beyond_an_arc_is_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let (inner, outer, half) = (30.0f64, 8.0, 1.2);
+    let angle = (half / inner).asin();
+    let centre = [half - outer * angle.sin(), inner - (inner - outer) * angle.cos()];
+    let height = |x: f64| match x.abs() {
+        x if x <= half => inner - (inner * inner - x * x).sqrt(),
+        x => centre[1] - (outer * outer - (x - centre[0]).powi(2)).sqrt(),
+    };
+    let block = grid(50, 12, 0, |u, v| [10.0 * u - 5.0, -5.0 * (1.0 - v) * (1.0 - v)]);
+    let mut body = grid(52, 12, 0, |u, v| {
+        let x = 5.2 * u - 2.6;
+        [x, (1.0 - v * v) * height(x) + 5.0 * v * v]
+    });
+    let points = body.points.clone();
+    let middle = |edge: &[usize; 2]| 0.5 * (points[edge[0]][0] + points[edge[1]][0]);
+    let bottom = body.sides[0].clone();
+    let part = |is_in: &dyn Fn(f64) -> bool| bottom.iter().copied().filter(|edge| is_in(middle(edge))).collect::<Vec<_>>();
+    body.sides = [part(&|x| x.abs() < half), part(&|x| x > half), body.sides[2].clone(), part(&|x| x < -half)];
+    let bodies = vec![("race", block, ["base", "", "race.top", ""]), ("roll", body, ["mid", "right", "roll.top", "left"])];
+    let [x, y] = centre;
+    let case = format!(
+        r#"
+mesh = {{ file = "mesh.msh", refine = 1 }}
+body.race = {{ young = 2e5, poisson = 0.3 }}
+body.roll = {{ young = 2e5, poisson = 0.3 }}
+support.base = {{ on = "base", ux = 0.0, uy = 0.0 }}
+load.top = {{ on = "roll.top", rigid = true, force = [0.0, -5000.0], ux = 0.0, angle = 0.0 }}
+geometry.mid = {{ curves = "mid", circle = {{ centre = [0.0, {inner}], radius = {inner} }} }}
+geometry.left = {{ curves = "left", circle = {{ centre = [-{x}, {y}], radius = {outer} }} }}
+geometry.right = {{ curves = "right", circle = {{ centre = [{x}, {y}], radius = {outer} }} }}
+"#
+    );
+    let text = Mesh { bodies }.text();
+    let one = format!("{case}contact.seam = {{ between = [\"race.top\", [\"left\", \"mid\", \"right\"]] }}\n");
+    for ranks in [1, 2] {
+        let ended = Run::file(&write_scene(folder.path(), &text, &one)).ranks(ranks).converged();
+        assert_eq!(ended.value("/contact/seam/trust"), false, "{}", ended.said());
+        assert!(ended.errors.contains("both bodies go on beyond"), "{}", ended.errors);
+    }
+}
