@@ -232,6 +232,42 @@ fn load_steps_scale_what_a_table_stands_for() {
     assert_eq!(values.collect::<Vec<_>>(), [vec![0.0, 0.0, 0.0, 0.0, 1e-3], vec![2e-3, 2e-3, 2e-3, 2e-3, 1e-3]]);
 }
 
+/// A name with a star or a question mark stands for itself wherever it is written, and for nothing else that it would match; where a
+/// pattern matches it, its table has a name that is no pattern, and none of another body.
+#[test]
+fn names_with_stars_stand_for_themselves() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let block = |k: usize| grid(2, 2, 1 + k as u64, move |u, v| [2.0 * u, k as f64 + v]);
+    let sides = [["aab.low", "", "aab.top", ""], ["a*b.low", "a*b.side", "a*b.top", ""], ["a-b.low", "", "a-b.top", ""]];
+    let bodies = ["aab", "a*b", "a-b"].into_iter().zip(sides).enumerate();
+    let mesh = Mesh { bodies: bodies.map(|(k, (name, sides))| (name, block(k), sides)).collect() };
+    let case = r#"
+mesh = { file = "mesh.msh" }
+body."a*" = { young = 1.0, poisson = 0.3 }
+body."a*b" = { poisson = 0.2, body_force = [0.0, -1e-3] }
+support.own = { body = "a*b", mean = true, ux = 0.0 }
+load.own = { on = "a*b.side", rigid = true, force = [0.0, 0.0] }
+load.all = { on = ["a?b.side"], rigid = true, force = [0.0, 0.0] }
+contact.own = { between = ["aab.top", "a*b.low"] }
+probe.own = { point = [1.0, 1.5], body = "a*b" }
+steps.own = { factors = [1.0, 2.0], scales = ["body.\"a*b\".body_force"] }
+"#;
+    let read = |text: &str| {
+        let case = mezha::case::Case::read(&write_scene(folder.path(), &mesh.text(), text), &[]);
+        case.unwrap_or_else(|error| panic!("{error}"))
+    };
+    let case = read(case);
+    assert_eq!(case.contacts.iter().map(|pair| pair.name.as_str()).collect::<Vec<_>>(), ["own"]);
+    assert_eq!(case.plates.iter().map(|plate| plate.name.as_str()).collect::<Vec<_>>(), ["own", "all.a-b"]);
+    assert_eq!((case.means[0].name.as_str(), case.means[0].body.as_str()), ("own", "a*b"));
+    assert!(!case.resolved().contains("body.aab.body_force"), "{}", case.resolved());
+    let many = read(&case.resolved().replace("[support.own]\nbody = \"a*b\"", "[support.all]\nbody = \"a?b\""));
+    for case in [&many, &read(&many.resolved())] {
+        let names = case.means.iter().map(|mean| (mean.name.as_str(), mean.body.as_str()));
+        assert_eq!(names.collect::<Vec<_>>(), [("all.aab", "aab"), ("all.a-b", "a*b"), ("all.a-b-", "a-b")]);
+    }
+}
+
 #[test]
 fn mistakes_are_told_where_they_are_written() {
     for (set, words) in [

@@ -2,7 +2,7 @@
 
 use super::merging::{StandsFor, merged};
 use super::mesh_names::{MeshNames, point};
-use super::wildcard::{is_pattern, matches};
+use super::wildcard::{is_pattern, is_pattern_of, matches};
 use crate::case::file::error::{Log, Problem, dotted, listed, quoted, told};
 use crate::case::file::overrides::{read_key, set_value, value_at};
 use crate::geometry::Quote;
@@ -133,7 +133,7 @@ impl Expansion<'_> {
     pub fn names(&mut self, path: &[&str], value: &Value, known: &[String], kind: &'static str) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
         for name in strings(value) {
-            if !is_pattern(name) || known.iter().any(|known| known == name) {
+            if !is_pattern_of(known, name) {
                 names.push(name.into());
                 continue;
             }
@@ -146,7 +146,7 @@ impl Expansion<'_> {
     /// A probe asks the body that has its point.
     pub fn write_out_probes(&mut self, mesh: &MeshNames) {
         for (name, value) in self.values("probe", "body") {
-            let Some(pattern) = value.as_str().filter(|text| is_pattern(text)) else { continue };
+            let Some(pattern) = value.as_str().filter(|text| is_pattern_of(&mesh.mesh.bodies, text)) else { continue };
             let path = ["probe", name.as_str(), "body"];
             let all = self.matching(&path, pattern, &mesh.mesh.bodies, "body");
             let point = table_at(&self.table, &path[..2]).and_then(|probe| point(probe.get("point")?));
@@ -170,9 +170,10 @@ impl Expansion<'_> {
             let mut scales: Vec<String> = Vec::new();
             for key in strings(&value) {
                 let parts = read_key(key).unwrap_or_default();
+                let known = parts.first().map(|kind| keys_of(&self.table, kind)).unwrap_or_default();
                 let names = match &parts[..] {
-                    [kind, of, ..] if is_pattern(of) && self.stands_for(kind, of).is_none() => {
-                        Some(self.matching(&path, of, &keys_of(&self.table, kind), "table"))
+                    [kind, of, ..] if is_pattern_of(&known, of) && self.stands_for(kind, of).is_none() => {
+                        Some(self.matching(&path, of, &known, "table"))
                     }
                     [kind, of, ..] => self.stands_for(kind, of),
                     _ => None,

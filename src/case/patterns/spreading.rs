@@ -3,7 +3,7 @@
 use super::expansion::{Expansion, Matched, strings, table_at};
 use super::merging::StandsFor;
 use super::mesh_names::{MeshNames, point};
-use super::wildcard::is_pattern;
+use super::wildcard::is_pattern_of;
 use crate::case::acting::rigid::{Tool, read_tool};
 use crate::case::file::error::{Log, listed};
 use crate::case::keys::{LONGEST_NAME, Section};
@@ -66,9 +66,19 @@ impl Expansion<'_> {
 
     /// What a support or a load is on each of its bodies, by the name of each; nothing if it stands for itself.
     fn on_bodies(&mut self, kind: &'static str, name: &str, table: &Value, mesh: &MeshNames) -> Option<Vec<(String, Table)>> {
-        if let Some(pattern) = table.get("body").and_then(Value::as_str).filter(|text| is_pattern(text)) {
+        // Letters of a body that would make its table a pattern give way.
+        let mut taken = HashSet::new();
+        let mut name_on = |body: &str| {
+            let mut fresh = format!("{name}.{}", body.replace(['*', '?'], "-"));
+            while !taken.insert(fresh.clone()) {
+                fresh.push('-');
+            }
+            fresh
+        };
+        let known = &mesh.mesh.bodies;
+        if let Some(pattern) = table.get("body").and_then(Value::as_str).filter(|text| is_pattern_of(known, text)) {
             let path = [kind, name, "body"];
-            let mut bodies = self.matching(&path, pattern, &mesh.mesh.bodies, "body");
+            let mut bodies = self.matching(&path, pattern, known, "body");
             if let Some(at) = table.get("at").and_then(point) {
                 let all = bodies.len();
                 bodies = mesh.holding(&bodies, at);
@@ -76,17 +86,16 @@ impl Expansion<'_> {
                     self.problem(&path, table.get("body"), "none of these bodies has the point of at; move it");
                 }
             }
-            let own = |body: String| (format!("{name}.{body}"), Table::from_iter([("body".to_owned(), Value::String(body))]));
+            let own = |body: String| (name_on(&body), Table::from_iter([("body".to_owned(), Value::String(body))]));
             return Some(bodies.into_iter().map(own).collect());
         }
-        let on = table.get("on").filter(|on| strings(on).into_iter().any(is_pattern))?;
+        let on = table.get("on").filter(|on| strings(on).into_iter().any(|name| is_pattern_of(&mesh.boundaries, name)))?;
         if table.get("rigid").and_then(Value::as_bool) != Some(true) {
             return None;
         }
         let curves = self.names(&[kind, name, "on"], on, &mesh.boundaries, "physical curve");
-        let own = |(body, curves): (&str, Vec<String>)| {
-            (format!("{name}.{body}"), Table::from_iter([("on".to_owned(), Value::from(curves))]))
-        };
+        let own =
+            |(body, curves): (&str, Vec<String>)| (name_on(body), Table::from_iter([("on".to_owned(), Value::from(curves))]));
         Some(mesh.of_each_body(curves).into_iter().map(own).collect())
     }
 }
@@ -100,6 +109,8 @@ impl Expansion<'_> {
         let Some(tables) = table_at(&self.table, &["contact"]).cloned() else { return };
         let log = RefCell::new(Log::default());
         let tools = Section::root(&self.table, &CASE, &log).named("rigid", read_tool);
+        let known: Vec<String> = mesh.boundaries.iter().cloned().chain(tools.iter().flat_map(surfaces_of)).collect();
+        let is_pattern = |name: &str| is_pattern_of(&known, name);
         let has_patterns =
             |table: &Value| table.get("between").is_some_and(|between| strings(between).into_iter().any(is_pattern));
         let plain = || tables.iter().filter(|(_, table)| !has_patterns(table) && table.get("between").is_some());
@@ -112,7 +123,7 @@ impl Expansion<'_> {
                 spread.keep(name, table);
                 continue;
             };
-            let sides = [first, second].map(|side| self.sides(name, side, mesh, &tools));
+            let sides = [first, second].map(|side| self.sides(name, side, mesh, (&tools, &known)));
             let is_known = sides.iter().all(|all| !all.is_empty());
             let pairs = if is_known { close(&sides, mesh, &tools) } else { Vec::new() };
             if is_known && pairs.is_empty() {
@@ -138,11 +149,10 @@ impl Expansion<'_> {
     }
 
     /// The sides that one of a contact stands for: each curve that it matches; of a list those on each body together.
-    fn sides(&mut self, contact: &str, side: &Value, mesh: &MeshNames, tools: &[Tool]) -> Vec<SideNames> {
+    fn sides(&mut self, contact: &str, side: &Value, mesh: &MeshNames, (tools, known): (&[Tool], &[String])) -> Vec<SideNames> {
         let path = ["contact", contact, "between"];
-        let known: Vec<String> = mesh.boundaries.iter().cloned().chain(tools.iter().flat_map(surfaces_of)).collect();
         let names = strings(side);
-        if !names.iter().any(|name| is_pattern(name)) {
+        if !names.iter().any(|name| is_pattern_of(known, name)) {
             let is_tool = |name: &str| tools.iter().any(|tool| tool.has(name));
             if let Some(wrong) = names.iter().find(|name| !is_tool(name) && !known.iter().any(|known| known == *name)) {
                 let there = listed(known.iter().map(|name| format!("\"{}\"", Quote(name))));
@@ -156,7 +166,7 @@ impl Expansion<'_> {
             let all = self.names(&path, side, &mesh.boundaries, "physical curve");
             mesh.of_each_body(all).into_iter().map(|(_, curves)| curves).collect()
         } else {
-            let all = self.matching(&path, names[0], &known, "physical curve");
+            let all = self.matching(&path, names[0], known, "physical curve");
             all.into_iter().map(|name| vec![name]).collect()
         };
         self.matched.truncate(before);

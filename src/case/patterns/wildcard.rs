@@ -5,6 +5,11 @@ pub fn is_pattern(name: &str) -> bool {
     name.contains(['*', '?'])
 }
 
+/// Whether a name is a pattern of those that are known, and none of them: that stands for itself.
+pub fn is_pattern_of(known: &[String], name: &str) -> bool {
+    is_pattern(name) && !known.iter().any(|known| known == name)
+}
+
 /// Whether a pattern stands for a name: the letters of both side by side, and back to the last `*` where they differ.
 pub fn matches(pattern: &str, name: &str) -> bool {
     let [pattern, name] = [pattern, name].map(|text| text.chars().collect::<Vec<char>>());
