@@ -202,6 +202,31 @@ fn loads_are_those_that_names_and_the_drawing_tell() {
     );
 }
 
+/// Whoever takes the comment sign from the line of bodies of revolution has a case of them, whatever presses or is held in the plane.
+#[test]
+fn half_sections_become_bodies_of_revolution_by_one_line() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (names, words) in [
+        (["bottom", "right", "top"], "angle = 0.0               # and does not turn"),
+        (["bottom", "load", "upper.end"], "[load.load]"),
+        (["", "right", ""], "mean = true\nux = 0.0"),
+    ] {
+        let mut mesh = two_blocks([(3, 2, 1), (4, 2, 2)]);
+        (mesh.bodies[0].2[0], mesh.bodies[1].2[1], mesh.bodies[1].2[2]) = (names[0], names[1], names[2]);
+        std::fs::write(folder.path().join("mesh.msh"), mesh.text()).expect("a mesh can be written");
+        let file = new_case(folder.path(), "mesh.msh");
+        let text = std::fs::read_to_string(&file).expect("a case");
+        assert!(text.contains(words), "{words} in\n{text}");
+        let round = text.replace("\n# plane = \"axisymmetric\"", "\nplane = \"axisymmetric\"");
+        assert_ne!(text, round);
+        for text in [text, round] {
+            std::fs::write(&file, &text).expect("a case can be written");
+            let (code, output, errors) = mezha_in(folder.path(), None, &["check", "case.toml"]);
+            assert_eq!(code, Some(0), "{output}{errors}\n{text}");
+        }
+    }
+}
+
 /// A polygon for an arc that touches a line between two of its nodes is drawn touching, and two pieces of a body that meet at a point are
 /// not held there.
 #[test]

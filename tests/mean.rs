@@ -352,7 +352,7 @@ fn mistakes_are_told() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = write_scene(folder.path(), &blocks().text(), BLOCKS).display().to_string();
     for (value, words) in [
-        ("{ body = \"upper\", mean = true }", "support.above: holds no mean motion; give ux, uy or angle"),
+        ("{ body = \"upper\", mean = true }", "support.above: holds no mean motion; give uy = 0.0; in the plane ux, angle,"),
         (
             "{ body = \"uper\", mean = true, ux = 0.0 }",
             "support.above.body = \"uper\" (--set): no such body; did you mean \"upper\"?",

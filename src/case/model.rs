@@ -140,13 +140,13 @@ impl Case {
         self.bodies.iter().flat_map(|body| body.parts.iter().map(move |part| (body, part)))
     }
 
-    /// The bodies whose mean motion is held, on the first mesh of the case.
+    /// The bodies whose mean motion is held, on the first mesh of the case; not those of revolution that are held across the axis alone.
     ///
     /// # Errors
     /// Words with the support for a body that has its middle where it is to go around.
     pub fn mean_holds(&self, mesh: &MacroMesh) -> Result<Vec<MeanHold>, String> {
         let hold = |mean: &MeanSupport| mean.hold(mesh).map_err(|words| format!("support.{}: {words}", mean.name));
-        self.means.iter().map(hold).collect()
+        self.means.iter().map(hold).filter(|hold| !hold.as_ref().is_ok_and(|hold| hold.held.is_empty())).collect()
     }
 
     /// Everything that moves as a rigid body on a mesh.

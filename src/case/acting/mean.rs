@@ -2,6 +2,7 @@
 
 use crate::body::{HeldMode, MeanHold, UNIT_MOTIONS};
 use crate::case::keys::{Key, NUMBER, POINT, Section, YES, declare, key, number, within};
+use crate::element::Plane;
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
 
@@ -65,13 +66,14 @@ pub enum MeanWay {
 const AT_CENTRE: f64 = 1e-6;
 
 impl MeanSupport {
-    /// The rigid modes that it holds of the body of a mesh, about its middle there.
+    /// The rigid modes that it holds of the body of a mesh, about its middle there: of a body of revolution its shift along the axis alone.
     ///
     /// # Errors
     /// Words for a body that has its middle where it is to go around.
     pub fn hold(&self, mesh: &MacroMesh) -> Result<MeanHold, String> {
         let mut hold = MeanHold::of_body(&self.name, &self.body, mesh);
-        for &(key, way, value) in &self.held {
+        let is_there = |key: &str| mesh.plane != Plane::Revolution || key == UY.form.name;
+        for &(key, way, value) in self.held.iter().filter(|(key, ..)| is_there(key)) {
             let mode = match way {
                 MeanWay::Along(direction) => [direction.x, direction.y, 0.0],
                 MeanWay::Turning => UNIT_MOTIONS[2],
@@ -119,7 +121,7 @@ pub fn read_mean(section: &Section, body: Key<String>) -> Option<MeanSupport> {
         (TANGENTIAL, about.map(MeanWay::Around)),
     ];
     if !ways.iter().any(|(key, _)| section.has(key.form.name)) {
-        let words = "holds no mean motion; give ux, uy or angle, along beside direction, tangential beside about, or several of them, as in ux = 0.0";
+        let words = "holds no mean motion; give uy = 0.0; in the plane ux, angle, along beside direction, tangential beside about, or several of them, too";
         section.problem(&[], words);
     }
     let values = ways.map(|(key, way)| (key.form.name, way, section.optional(key)));

@@ -40,7 +40,9 @@ pub fn check(plane: Plane, bodies: &[Body], gravity: Gravity, root: &Section) {
             let Some(table) = root.below(kind, name).filter(|table| mark.is_none_or(|mark| table.contains_key(mark))) else {
                 continue;
             };
-            for key in NOT_ALONG.into_iter().filter(|key| table.contains_key(*key) && !(kind == "rigid" && *key == "about")) {
+            // A case of the plane may hold what is held here anyway.
+            let moves = |key: &&str| table.get(*key).is_some_and(|value| number(value) != Ok(0.0));
+            for key in NOT_ALONG.into_iter().filter(moves).filter(|key| !(kind == "rigid" && *key == "about")) {
                 root.problem(&[kind, name, key], "a body of revolution moves along its axis alone; leave it out");
             }
             let force = table.get("force").and_then(Value::as_array).and_then(|force| force.first());

@@ -16,8 +16,7 @@ const MOST_UNKNOWNS: usize = 200_000;
 const ROOM: usize = 4;
 
 /// What is said of a mesh that may be half a section.
-const ROUND: &str =
-    "# plane = \"axisymmetric\"   # the mesh has a side on x = 0: write this if the bodies are turned about that line\n";
+const ROUND: &str = "# plane = \"axisymmetric\"   # the mesh has a side on x = 0: write this if the bodies are turned about that line; forces are whole ones then\n";
 
 /// What the case will say.
 pub struct Draft<'a> {
@@ -252,7 +251,8 @@ order = 2
         };
         let mut tables = TableNames::default();
         let _ = write!(text, "\n[load.{}]          # {what}: {why}\non = {}\n", tables.fresh(curve.name), quoted(curve.name));
-        if press == Press::Pressure {
+        // A plate on a body of revolution moves along the axis alone.
+        if press == Press::Pressure || direction.x != 0.0 && self.guesses.may_be_round() {
             let pressure = sense * self.guesses.pressure(curve);
             let _ = writeln!(text, "pressure = {pressure:?}       # example: pushes onto the body if it is positive");
             return;
