@@ -191,3 +191,38 @@ geometry.right = {{ curves = "right", circle = {{ centre = [{x}, {y}], radius = 
         assert!(ended.errors.contains("both bodies go on beyond"), "{}", ended.errors);
     }
 }
+
+/// A quarter of a pipe in a cradle, with the same nodes on both arcs. The pipe ends at a line of symmetry, the cradle beside it with a free
+/// cut: if one of both splines were square to the line alone, the sides would part there, or overlap, by a share of the gap.
+#[test]
+fn sides_that_lie_on_each_other_stay_there() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let ring = |radii: [f64; 2]| {
+        grid(9, 3, 0, move |u, v| {
+            let (angle, radius) = (0.5 * PI * (u - 1.0), radii[0] + (radii[1] - radii[0]) * v);
+            [radius * angle.cos(), radius * angle.sin()]
+        })
+    };
+    let bodies = vec![
+        ("pipe", ring([0.7, 1.0]), ["bore", "pipe.cut", "pipe.out", "pipe.axis"]),
+        ("cradle", ring([1.0, 1.6]), ["cradle.in", "", "base", "cradle.axis"]),
+    ];
+    let case = r#"
+mesh = { file = "mesh.msh", refine = 2 }
+body.pipe = { young = 1000.0, poisson = 0.3 }
+body.cradle = { young = 1000.0, poisson = 0.3 }
+support.axis = { on = ["pipe.axis", "cradle.axis"], ux = 0.0 }
+support.cut = { on = "pipe.cut", uy = 0.0 }
+support.base = { on = "base", ux = 0.0, uy = 0.0 }
+load.bore = { on = "bore", pressure = 1.0 }
+contact.seam = { between = ["pipe.out", "cradle.in"] }
+"#;
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), case);
+    let found = |gap: &str| {
+        let ended = Run::file(&file).set("contact.seam.gap", gap).converged();
+        ["pressure_max", "force", "shape_error"].map(|key| ended.value(&format!("/contact/seam/{key}")).as_f64().unwrap_or(0.0))
+    };
+    let ([peak, force, error], [drawn, pressed, _]) = (found("geometry"), found("closed"));
+    assert!(error < 1e-3 && (force / pressed - 1.0).abs() < 1e-3, "{error}: {force} for {pressed}");
+    assert!((peak / drawn - 1.0).abs() < 2e-2, "{peak} for {drawn}");
+}

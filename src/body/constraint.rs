@@ -63,6 +63,17 @@ impl Constraint {
     }
 }
 
+impl Support {
+    /// Straight edges on which it holds what is normal to them, and nothing else: a line of symmetry does that.
+    pub fn mirrors<'m>(&'m self, mesh: &'m MacroMesh) -> impl Iterator<Item = u32> + 'm {
+        let is_mirror = |edge: &u32| {
+            let normal = mesh.edge_normal(*edge, 0.5);
+            mesh.edges[*edge as usize].shape.is_none() && self.axes().all(|(_, axis)| cross(axis, normal).abs() <= SAME)
+        };
+        mesh.edges_on(&self.on).filter(is_mirror)
+    }
+}
+
 /// What holds a node, by its name; shown as the key of the case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub(super) enum HeldBy<'a> {

@@ -25,9 +25,8 @@ pub use singular_place::{CHORDS, SingularPlace, Unbounded, singular_places};
 pub use springs::{SpringStiffness, Springs};
 
 use crate::element::{Heat, Plane, PlaneLaw};
-use crate::geometry::{AXES, Formula, Point, cross};
-use crate::mesh::{MacroMesh, Spot};
-use constraint::SAME;
+use crate::geometry::{AXES, Formula, Point};
+use crate::mesh::Spot;
 
 /// Linear elastic material, and what is zero across the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -147,15 +146,6 @@ impl Support {
     /// The axes along which it prescribes a component, with the formulas of these.
     pub fn axes(&self) -> impl Iterator<Item = (&Formula, Point)> {
         [&self.ux, &self.uy].into_iter().zip(AXES).filter_map(|(formula, axis)| Some((formula.as_ref()?, axis)))
-    }
-
-    /// Straight edges on which it holds what is normal to them, and nothing else: a line of symmetry does that.
-    pub fn mirrors<'m>(&'m self, mesh: &'m MacroMesh) -> impl Iterator<Item = u32> + 'm {
-        let is_mirror = |edge: &u32| {
-            let normal = mesh.edge_normal(*edge, 0.5);
-            mesh.edges[*edge as usize].shape.is_none() && self.axes().all(|(_, axis)| cross(axis, normal).abs() <= SAME)
-        };
-        mesh.edges_on(&self.on).filter(is_mirror)
     }
 }
 
