@@ -230,7 +230,8 @@ fn carries(Solved { problem, solution, .. }: &Solved, name: &str, share: f64) ->
     problem.contacts.iter().any(|contact| contact.pair.name == name && force(contact) > share * largest)
 }
 
-/// Indicators of the macro triangles of a rank that count those alone that lie where a contact presses, or a segment from there: nothing tells an error of it, and the mesh may be
+/// Indicators of the macro triangles of a rank that count those alone that lie where a contact presses, or a segment from there: the
+/// mesh does not hold it, or nothing tells an error of it, and the mesh may be
 /// too coarse to hold it. A disc spring whose edges press on plates had no estimate of its force with 446 thousand unknowns, refined all
 /// over; refined beside its contacts it has one of 1.3e-2 with 88 thousand.
 fn beside(pressure: &ContactPressure, partition: &Partition, rank: usize) -> Vec<Cells> {

@@ -25,8 +25,8 @@ impl Procedure<'_> {
         Ok(if self.unresolved_contact(goal, error, solved)?.is_some() { None } else { error })
     }
 
-    /// A contact that is not resolved though a goal with this `error` is reached: that of the goal, or any where it is none of one contact, which
-    /// carries more than the goal's tolerance of the largest force. Meshes that do not hold a contact may agree on its force, and on
+    /// A contact that is not resolved though a goal with this `error` is reached: that of the goal, or any where it is none of one
+    /// contact, which carries more than the goal's tolerance of the largest force. Meshes that do not hold a contact may agree on its force, and on
     /// the energy. **Collective**
     fn unresolved_contact(&self, goal: &Goal, error: Option<f64>, solved: &Solved) -> Result<Option<usize>, SystemError> {
         let contacts = &solved.problem.contacts;

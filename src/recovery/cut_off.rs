@@ -22,8 +22,8 @@ const OPENS: f64 = PI / 60.0;
 const NEAR: f64 = 0.01;
 
 impl ContactPressure<'_> {
-    /// λ where a zone presses up to an end of Γ_C, by the largest λ of the zone, if a named boundary, or a piece of one, ends there, both bodies go on
-    /// smoothly, and none of `all` contacts begins there: what presses beyond is left out. The larger one of both ends; 0 if
+    /// λ where a zone presses up to an end of Γ_C, by the largest λ of the zone, if a named boundary, or a piece of one, ends there,
+    /// both bodies go on smoothly, and none of `all` contacts begins there: what presses beyond is left out. The larger one of both ends; 0 if
     /// neither is such an end.
     pub fn cut_off(&self, mesh: &MacroMesh, zone: &Zone, all: &[Contact]) -> f64 {
         let contact = self.contact;

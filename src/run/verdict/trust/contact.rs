@@ -120,3 +120,39 @@ fn goes_round(contact: &ContactSummary) -> bool {
     let apart = contact.ends.map(|[[x, y], [u, v]]| (u - x).hypot(v - y));
     apart.zip(contact.width()).is_some_and(|(apart, width)| apart < SAME_END * width)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::case;
+    use super::*;
+
+    #[test]
+    fn corners_are_doubted_by_what_they_do() {
+        let contact =
+            |error| ContactSummary { corner_angle: Some(11.25), corner_error: Some(error), ..ContactSummary::default() };
+        let case = case(&[]);
+        let told = |error| shape_doubts(&contact(error), &case.contacts[0], &case).into_iter().map(|doubt| doubt.figure).next();
+        assert_eq!(told(0.03), None);
+        assert!(
+            told(0.07).is_some_and(|words| words.contains("\"lower.seam\" or \"upper.seam\" has corners of up to 11 degrees"))
+        );
+    }
+
+    /// A shape that is known to .039 is known well enough, unless more of λ is asked for; or of a force that goes all around.
+    #[test]
+    fn shapes_are_doubted_by_what_is_asked_for() {
+        let told = |settings: &[&str], ends| {
+            let case = case(settings);
+            let closed = Some(vec![[0.0, 1.0]]);
+            let contact = ContactSummary { shape_error: Some(0.039), ends: Some(ends), closed, ..ContactSummary::default() };
+            shape_doubts(&contact, &case.contacts[0], &case).into_iter().map(|doubt| doubt.figure).collect::<String>()
+        };
+        let (open, round) = ([[0.0, 0.0], [1.0, 0.0]], [[0.0, 0.0]; 2]);
+        for settings in [&[][..], &["accuracy.pressure=5e-2"], &["accuracy.force=1e-2"]] {
+            assert_eq!(told(settings, open), "", "{settings:?}");
+        }
+        for (setting, ends) in [("accuracy.pressure=1e-2", open), ("accuracy.peak=1e-2", open), ("accuracy.force=1e-2", round)] {
+            assert!(told(&[setting], ends).ends_with("at most 0.01 wanted"), "{setting}: {}", told(&[setting], ends));
+        }
+    }
+}
