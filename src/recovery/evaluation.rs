@@ -1,6 +1,7 @@
 //! A solution looked at: what is computed of it once, and what can be asked of it.
 
 use super::balance::{Balance, balance};
+use super::contact_forces::ContactForce;
 use super::corners::{Corners, corners};
 use super::deformation::{Deformation, deformations};
 use super::end_slip::{EndSlip, slip_at_ends};
@@ -12,7 +13,7 @@ use super::shape_error::shape_error;
 use super::stress::{NodalStress, nodal_stress};
 use super::traces::{TracePoint, trace_points};
 use crate::contact::Penetration;
-use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, SystemError};
+use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, SystemError, needed_contacts};
 use crate::geometry::Point;
 use crate::mesh::Region;
 use crate::petsc::Session;
@@ -40,6 +41,8 @@ pub struct Evaluation<'a> {
     pub penetrations: Vec<Penetration>,
     /// Stress at the nodes, as soon as somebody has asked for it.
     stress: OnceCell<NodalStress>,
+    /// For each contact whether a body could move without it, as soon as somebody has asked for it.
+    needed: OnceCell<Vec<bool>>,
 }
 
 impl<'a> Evaluation<'a> {
@@ -67,6 +70,7 @@ impl<'a> Evaluation<'a> {
             motions,
             penetrations,
             stress: OnceCell::new(),
+            needed: OnceCell::new(),
         })
     }
 
@@ -92,9 +96,15 @@ impl<'a> Evaluation<'a> {
         corners(&self.problem.scene, &self.problem.contacts[contact], zones)
     }
 
-    /// Estimated relative error of λ by what the nodes of undeclared boundaries leave unknown of their shape.
-    pub fn shape_error(&self, contact: usize, points: &[TracePoint]) -> Option<f64> {
-        shape_error(&self.problem.contacts[contact], points)
+    /// Estimated relative errors of λ, and of the force, by what the nodes of undeclared boundaries leave unknown of their shape. Of a
+    /// contact without which a body could move equilibrium sets the resultant, and only what presses against itself is off. The points
+    /// are the same on every rank. **Collective**
+    pub fn shape_errors(&self, contact: usize, points: &[TracePoint]) -> Option<[f64; 2]> {
+        let error = shape_error(&self.problem.contacts[contact], points)?;
+        let is_needed = || needed_contacts(self.problem, &self.solution.active, self.session);
+        let ContactForce { force, resultants, .. } = &self.balance.contacts[contact];
+        let unset: f64 = if self.needed.get_or_init(is_needed)[contact] { 1.0 - resultants[1].norm() / force.abs() } else { 1.0 };
+        Some([error, error * unset.max(0.0)])
     }
 
     /// Force that is missing because bodies overlap where nothing presses, relative to the force found; without a force, the

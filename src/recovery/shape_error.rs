@@ -29,7 +29,7 @@ struct NodedSide<'c> {
 type SlopeErrors = Vec<[f64; 2]>;
 
 /// Estimated relative error of λ, root mean square over what presses, by the shapes of sides that nobody has declared; nothing if gaps are
-/// not measured between shapes, or if nothing presses.
+/// not measured between shapes, or if nothing presses. Where a load sets the force, the force is not off by that.
 pub fn shape_error(contact: &Contact, points: &[TracePoint]) -> Option<f64> {
     let shapes = contact.shapes.as_ref()?;
     let pressing = pressing_places(points);

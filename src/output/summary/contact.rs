@@ -61,6 +61,8 @@ pub struct ContactSummary {
     pub corner_error: Option<f64>,
     /// Estimated relative error of λ by what the nodes of boundaries without a declared shape leave unknown of it.
     pub shape_error: Option<f64>,
+    /// The same of the force: of the share that no load sets.
+    pub shape_error_force: Option<f64>,
     /// Intervals of arc length that press, each with what is estimated of it.
     pub zones: Vec<ZoneSummary>,
     /// Force that is missing because the bodies overlap where no segment presses, relative to `force`; where nothing presses,

@@ -8,7 +8,7 @@ use crate::procedure::Solved;
 use crate::recovery::{Evaluation, TracePoint};
 use crate::run::verdict::limits::{EDGES, GROWS_AT_CORNERS, PROVES};
 
-/// All figures of a contact, `at` its place among all, and the errors that are estimated of it; `points` are its traces.
+/// All figures of a contact, `at` its place among all, and the errors that are estimated of it; `points` are its traces. **Collective**
 pub fn contact(solved: &Solved, found: &Evaluation, at: usize, points: &[TracePoint]) -> (ContactSummary, ContactEstimate) {
     let Evaluation { problem, solution, balance, .. } = found;
     let pressure = found.pressure(at);
@@ -27,7 +27,7 @@ pub fn contact(solved: &Solved, found: &Evaluation, at: usize, points: &[TracePo
     let is_reference = contact.pair.configuration == Configuration::Reference;
     let missing = is_reference.then(|| found.missing_force(at, &pressing, points));
     let at_ends = if is_reference { found.slip_at_ends(at, &pressing, points) } else { None };
-    let motion = found.motions[at];
+    let (motion, shape_errors) = (found.motions[at], found.shape_errors(at, points));
     // Where nothing presses, the growth of bodies that turn is compared with the smallest gap.
     let growth = || found.growth_by_gap(at, points).filter(|_| closed.is_empty());
     let described = ContactSummary {
@@ -55,7 +55,8 @@ pub fn contact(solved: &Solved, found: &Evaluation, at: usize, points: &[TracePo
         slant: motion.map(|motion| motion.slant),
         corner_angle: corners.as_ref().map(|corners| corners.angle.to_degrees()),
         corner_error,
-        shape_error: found.shape_error(at, points),
+        shape_error: shape_errors.map(|[of_pressure, _]| of_pressure),
+        shape_error_force: shape_errors.map(|[_, of_force]| of_force),
         missing: missing.and_then(|(share, _)| share),
         missing_force: missing.map(|(_, force)| force),
         missing_beyond: found.missing_beyond(at),

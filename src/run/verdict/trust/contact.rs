@@ -15,9 +15,6 @@ use crate::run::verdict::limits::{
 use crate::run::verdict::no_result::{balance_doubts, is_strained};
 use crate::run::words::short;
 
-/// A contact boundary is closed if its ends are apart by less than this share of what presses.
-const SAME_END: f64 = 1e-9;
-
 /// What a contact without force is called.
 const NOTHING_PRESSES: &str = "nothing presses";
 
@@ -49,7 +46,8 @@ pub fn verdict(summary: &Summary, contact: &ContactSummary, mended: Mended, conv
     doubts.extend(FORCE.judge(force, &[]).filter(|_| carries));
     let beyond = doubts_beyond(summary, contact, case, carries);
     let shapes: Vec<Doubt> = shape_doubts(contact, pair, case).into_iter().filter(|_| carries).collect();
-    let trust_force = trust_force.map(|trust| trust && beyond.is_empty() && (shapes.is_empty() || !goes_round(contact)));
+    let is_known = contact.shape_error_force.is_none_or(|error| error <= shape_limit(pair, case, false));
+    let trust_force = trust_force.map(|trust| trust && beyond.is_empty() && (is_known || !carries));
     doubts.extend(beyond);
     doubts.extend(shapes);
     let unknown = uncut(pair).or_else(|| unknown_of(contact, trust_force, mended.by(Remedy::MoreSegments)));
@@ -102,23 +100,25 @@ fn uncut(pair: &Pair) -> Option<Objection> {
 /// is asked for.
 pub fn shape_doubts(contact: &ContactSummary, pair: &Pair, case: &Case) -> Vec<Doubt> {
     let angle = format!("{:.0}", contact.corner_angle.unwrap_or(f64::NAN));
-    let asked = case.accuracy.iter().flat_map(|accuracy| &accuracy.goals).filter(|goal| match &goal.quantity {
-        Quantity::Pressure(name) | Quantity::Peak(name) => *name == pair.name,
-        Quantity::Force(name) => *name == pair.name && goes_round(contact),
-        _ => false,
-    });
-    let most = asked.map(|goal| goal.tolerance).fold(SHAPE.value, f64::min);
-    let limit = most.to_string();
+    let limits = [contact.shape_error, contact.shape_error_force].into_iter().zip([true, false]);
+    let off = limits
+        .filter_map(|(error, of_pressure)| Some((error?, shape_limit(pair, case, of_pressure))))
+        .find(|(error, most)| error > most);
+    let limit = off.map_or(String::new(), |(_, most)| most.to_string());
     let named: [(&str, &str); 4] =
         [("first", &pair.between[0]), ("second", &pair.between[1]), ("angle", &angle), ("limit", &limit)];
-    let shape = contact.shape_error.filter(|error| *error > most).map(|error| SHAPE.doubt(error, &named));
+    let shape = off.map(|(error, _)| SHAPE.doubt(error, &named));
     CORNERS.judge(contact.corner_error, &named[..3]).into_iter().chain(shape).collect()
 }
 
-/// Whether a contact boundary goes all around: its force is then no resultant that loads could tell, and is as far off as its pressure.
-fn goes_round(contact: &ContactSummary) -> bool {
-    let apart = contact.ends.map(|[[x, y], [u, v]]| (u - x).hypot(v - y));
-    apart.zip(contact.width()).is_some_and(|(apart, width)| apart < SAME_END * width)
+/// How well the shape must be known, by what it does to λ or to the force: as well as either is asked for.
+fn shape_limit(pair: &Pair, case: &Case, of_pressure: bool) -> f64 {
+    let asked = case.accuracy.iter().flat_map(|accuracy| &accuracy.goals).filter(|goal| match &goal.quantity {
+        Quantity::Pressure(name) | Quantity::Peak(name) => of_pressure && *name == pair.name,
+        Quantity::Force(name) => !of_pressure && *name == pair.name,
+        _ => false,
+    });
+    asked.map(|goal| goal.tolerance).fold(SHAPE.value, f64::min)
 }
 
 #[cfg(test)]
@@ -138,21 +138,21 @@ mod tests {
         );
     }
 
-    /// A shape that is known to .039 is known well enough, unless more of λ is asked for; or of a force that goes all around.
+    /// A shape that is known to .039 is known well enough, unless more of λ is asked for; or of a force that no load sets.
     #[test]
     fn shapes_are_doubted_by_what_is_asked_for() {
-        let told = |settings: &[&str], ends| {
+        let told = |settings: &[&str], of_force| {
             let case = case(settings);
-            let closed = Some(vec![[0.0, 1.0]]);
-            let contact = ContactSummary { shape_error: Some(0.039), ends: Some(ends), closed, ..ContactSummary::default() };
+            let contact =
+                ContactSummary { shape_error: Some(0.039), shape_error_force: Some(of_force), ..ContactSummary::default() };
             shape_doubts(&contact, &case.contacts[0], &case).into_iter().map(|doubt| doubt.figure).collect::<String>()
         };
-        let (open, round) = ([[0.0, 0.0], [1.0, 0.0]], [[0.0, 0.0]; 2]);
         for settings in [&[][..], &["accuracy.pressure=5e-2"], &["accuracy.force=1e-2"]] {
-            assert_eq!(told(settings, open), "", "{settings:?}");
+            assert_eq!(told(settings, 0.009), "", "{settings:?}");
         }
-        for (setting, ends) in [("accuracy.pressure=1e-2", open), ("accuracy.peak=1e-2", open), ("accuracy.force=1e-2", round)] {
-            assert!(told(&[setting], ends).ends_with("at most 0.01 wanted"), "{setting}: {}", told(&[setting], ends));
+        for (setting, of_force) in [("accuracy.pressure=1e-2", 0.0), ("accuracy.peak=1e-2", 0.0), ("accuracy.force=1e-2", 0.039)]
+        {
+            assert!(told(&[setting], of_force).ends_with("at most 0.01 wanted"), "{setting}: {}", told(&[setting], of_force));
         }
     }
 }
