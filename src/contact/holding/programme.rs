@@ -130,7 +130,8 @@ impl Programme {
         Some(ProgrammeOutcome::Driven(solution.x.iter().zip(scale).map(|(value, scale)| value * scale / largest).collect()))
     }
 
-    /// What makes entries and unknowns about one: a unit diagonal of `S`, unit rows of `G`, and forces by the largest load.
+    /// What makes entries and unknowns about one: a unit diagonal of `S`, unit rows of `G`, and forces by the largest load, or, where the
+    /// loads drive nothing, by what presses bodies into each other that stay where they are.
     fn scales(&self) -> Scales {
         let mut diagonal = vec![0.0f64; self.penetration.len()];
         self.compliance.iter().filter(|(i, j, _)| i == j).for_each(|&(i, _, value)| diagonal[i] = value);
@@ -141,9 +142,11 @@ impl Programme {
         self.resistance.iter().for_each(|&(k, i, value)| rows[k] = rows[k].max((value * multiplier[i]).abs()));
         let motion: Vec<f64> = rows.iter().map(|row| if *row > 0.0 { row.recip() } else { 1.0 }).collect();
         let drives = self.driven.iter().zip(&motion).map(|(work, scale)| (work * scale).abs());
-        let drawn = self.penetration.iter().zip(&multiplier).map(|(value, scale)| (value * scale).abs());
+        let both = |i: usize| if self.pushes[i] { self.penetration[i] } else { self.penetration[i].abs() };
+        let drawn = (0..multiplier.len()).map(|i| both(i) * multiplier[i]).fold(0.0, f64::max);
         let loads = drives.fold(0.0, f64::max);
-        let force = if loads > 0.0 { loads } else { drawn.fold(0.0, f64::max) };
+        // Loads that balance each other, as a pressure all around, leave a resultant of rounding.
+        let force = if loads > TOLERANCE * drawn { loads } else { drawn };
         Scales { multiplier, motion, force: if force > 0.0 { force } else { 1.0 } }
     }
 }
@@ -247,6 +250,24 @@ mod tests {
         let ProgrammeOutcome::Found { multipliers, gaps, motions } = still.solve() else { panic!("it stands") };
         let gaps = gaps.into_iter().map(|gap| gap + 0.0).collect();
         assert_eq!(ProgrammeOutcome::Found { multipliers, gaps, motions }, wanted);
+    }
+
+    /// A block that lies in both jaws of a vice by .5, on loads that balance each other but for rounding.
+    #[test]
+    fn a_resultant_of_rounding_sets_no_scale() {
+        let vice = |work: f64| Programme {
+            compliance: vec![(0, 0, 1.0), (1, 1, 1.0)],
+            penetration: vec![0.5, 0.5],
+            pushes: vec![true; 2],
+            resistance: vec![(0, 0, -1.0), (0, 1, 1.0)],
+            driven: vec![work],
+        };
+        for work in [0.0, 1e-15, -1e-14, 1e-12] {
+            let ProgrammeOutcome::Found { multipliers, motions, .. } = vice(work).solve() else {
+                panic!("both jaws hold it: {work}")
+            };
+            assert!(multipliers.iter().all(|force| (force - 0.5).abs() < 1e-7) && motions[0].abs() < 1e-7, "{multipliers:?}");
+        }
     }
 
     #[test]
