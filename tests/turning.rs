@@ -46,6 +46,45 @@ fn run(folder: &std::path::Path, angle: f64, push: f64, configuration: &str, ran
         .set("contact.seam.configuration", configuration)
 }
 
+/// A rocker of radius 4 on a stiff flat, under 20 and pushed onto a wall by .4, which by balance is the force of the wall, since the flat
+/// stays level. The rocker turns as it rolls, and normals half-way between the undeformed sides turn by half of that: the wall has
+/// an eighth too little, and that is told, with what helps.
+#[test]
+fn a_small_force_beside_one_that_turns_is_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let flat = grid(12, 4, 0, |u, v| [4.0 * u - 2.0, v - 1.0]);
+    let rocker = grid(24, 10, 0, |u, v| {
+        let x = 3.0 * u - 1.5;
+        [x, (1.0 - v) * (4.0 - (16.0 - x * x).sqrt()) + 2.0 * v]
+    });
+    let bodies = vec![("flat", flat, ["base", "", "flat.top", ""]), ("rocker", rocker, ["arc", "side", "rocker.top", ""])];
+    let case = r#"
+mesh = { file = "mesh.msh", refine = 2 }
+body.flat = { young = 1e6, poisson = 0.3 }
+body.rocker = { young = 1e4, poisson = 0.3 }
+support.base = { on = "base", ux = 0.0, uy = 0.0 }
+rigid.wall = { x = "1.5 + t^2/40", y = "1 + t", t = [-0.6, 0.6], ux = 0.0, uy = 0.0, angle = 0.0 }
+load.top = { on = "rocker.top", traction = ["0.4/3", "-20/3"] }
+contact.foot = { between = ["flat.top", "arc"] }
+contact.wall = { between = ["side", "rigid.wall"] }
+accuracy = { force = 1e-2 }
+"#;
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), case);
+    for (ranks, curve, configuration) in
+        [(1, "fit", "reference"), (2, "fit", "reference"), (1, "fit", "deformed"), (1, "flat.top", "reference")]
+    {
+        let run = Run::file(&file).ranks(ranks).set("contact.foot.curve", curve).set("contact.foot.configuration", configuration);
+        let ended = run.converged();
+        let [force, error] = ["force", "direction_error"].map(|key| ended.number(&format!("/contact/wall/{key}")));
+        let is_off = curve == "fit" && configuration == "reference";
+        let off = 0.4 - force;
+        assert_eq!(off.abs() > 1e-3, is_off, "{force}: {}", ended.said());
+        assert!((error * force - off).abs() < 1e-3, "{error} of {force}");
+        assert_eq!(ended.value("/contact/wall/trust_force"), !is_off, "{}", ended.said());
+        assert_eq!(ended.errors.contains("forces on them turn"), is_off, "{}", ended.errors);
+    }
+}
+
 /// A pad presses on its bore with one force wherever it has been turned to. The program is off, and says by how much.
 #[test]
 fn a_pad_that_turns_in_its_bore_presses_as_before_or_tells() {

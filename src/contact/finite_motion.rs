@@ -5,7 +5,7 @@ use super::contact_boundary::ContactBoundary;
 use super::multiplier::Multipliers;
 use super::pair::Configuration;
 use super::smooth_side::SmoothSide;
-use crate::geometry::{Point, gauss_points, turn_right};
+use crate::geometry::{Curve, Point, gauss_points, turn_right};
 use nalgebra::Rotation2;
 
 /// Gauss points of a segment.
@@ -43,6 +43,11 @@ pub struct FiniteMotion {
     pub turning: GapError,
     /// `∫λ ds` (force per thickness).
     pub force: f64,
+    /// `∫λ n ds` by the normals n of Γ_C (force per thickness).
+    pub resultant: Point,
+    /// `∫λ (n' - n) ds` by the normals n' that the displaced sides have in common (force per thickness): zero on straight lines and on
+    /// boundaries that follow the deformed bodies.
+    pub turned: Point,
     /// Length of the segments that press.
     pub length: f64,
 }
@@ -103,11 +108,19 @@ pub fn finite_motion(
         Some(PressedPoint { weight, arc, slip, moved, shifted, grown: growth[0] - growth[1] })
     };
     let pressed: Vec<PressedPoint> = points.iter().filter_map(pressed_point).collect();
+    let normals = points.iter().map(|&[t, weight, _]| (t, weight, boundary.normal(t)));
+    let pressing = sides.and_then(|sides| Some((sides, common_normal_shares(sides, boundary, &points)?)));
+    let turned = |(t, weight, normal): (f64, f64, Point)| {
+        let (sides, shares) = pressing?;
+        Some(weight * (displaced_normal(sides, shares, boundary.point(t), normal)? - normal))
+    };
     FiniteMotion {
         slip: mean(&pressed, |point| point.slip * point.slip).sqrt(),
         whole: gap_error(&pressed, force, |point| point.moved),
         turning: gap_error(&pressed, force, |point| point.moved - point.shifted),
         force,
+        resultant: normals.clone().map(|(_, weight, normal)| weight * normal).sum(),
+        turned: normals.filter_map(turned).sum(),
         length,
     }
 }
@@ -149,16 +162,48 @@ fn mean_tilt(side: &SmoothSide, boundary: &ContactBoundary, points: &[[f64; 3]])
     sum / total
 }
 
+/// Parameters of the places of both sides that correspond to a point of Γ_C.
+fn feet(sides: [&SmoothSide; 2], x: Point, normal: Point) -> Option<[f64; 2]> {
+    let foot = |side: &SmoothSide| {
+        let curve = side.curve(Configuration::Reference);
+        curve.hit_from(curve.nearest(x - side.shift), x - side.shift, normal)
+    };
+    Some([foot(sides[0])?, foot(sides[1])?])
+}
+
+/// Shares of both sides' normals in the one that they have in common where they press. Sides that are tilted to each other press elsewhere,
+/// until they are parallel: a flat one has its normal there, too. Of two round ones it turns as far as each is curved, and of such as fit
+/// each other by half. Nothing without points.
+fn common_normal_shares(sides: [&SmoothSide; 2], boundary: &ContactBoundary, points: &[[f64; 3]]) -> Option<[f64; 2]> {
+    let [first, last] = [points.first()?, points.last()?].map(|&[t, ..]| feet(sides, boundary.point(t), boundary.normal(t)));
+    let (first, last) = (first?, last?);
+    let bent = [0, 1].map(|k| {
+        let [a, b] = [first[k], last[k]].map(|foot| sides[k].curve(Configuration::Reference).tangent(foot));
+        a.perp(&b).atan2(a.dot(&b)).abs()
+    });
+    let both = bent[0] + bent[1];
+    Some(if both > 0.0 { [bent[1] / both, bent[0] / both] } else { [0.5; 2] })
+}
+
+/// Normal that the displaced sides have in common, by these shares, where the places that correspond to a point of Γ_C have moved to.
+fn displaced_normal(sides: [&SmoothSide; 2], shares: [f64; 2], x: Point, normal: Point) -> Option<Point> {
+    let (feet, curves) = (feet(sides, x, normal)?, sides.map(|side| side.curve(Configuration::Deformed)));
+    let place = 0.5 * (curves[0].point(feet[0]) + curves[1].point(feet[1]));
+    let angle = |curve: &Curve| {
+        let own = turn_right(curve.tangent(curve.nearest(place)));
+        let facing = own * own.dot(&normal).signum();
+        normal.perp(&facing).atan2(normal.dot(&facing))
+    };
+    Some(Rotation2::new(shares[0] * angle(curves[0]) + shares[1] * angle(curves[1])) * normal)
+}
+
 /// Slip, and gap of the displaced bodies less the linear one, at a point of Γ_C that moves with the bodies' mean. Each
 /// boundary keeps its shape, moves by the displacement of its corresponding point, and turns by its tilt about it: what it
 /// is strained moves on with the contact, and is no error.
 fn left_out(sides: [&SmoothSide; 2], tilts: [f64; 2], x: Point, normal: Point) -> Option<[f64; 2]> {
     let [undeformed, deformed] =
         [Configuration::Reference, Configuration::Deformed].map(|which| sides.map(|side| side.curve(which)));
-    let mut feet = [0.0; 2];
-    for ((foot, curve), side) in feet.iter_mut().zip(undeformed).zip(sides) {
-        *foot = curve.hit_from(curve.nearest(x - side.shift), x - side.shift, normal)?;
-    }
+    let feet = feet(sides, x, normal)?;
     let moved = [0, 1].map(|k| deformed[k].point(feet[k]) - undeformed[k].point(feet[k]));
     // From where corresponding points are those of Γ_C.
     let since = [0, 1].map(|k| moved[k] - sides[k].shift);
@@ -183,7 +228,6 @@ mod tests {
     use super::*;
     use crate::contact::samples;
     use crate::element::Order;
-    use crate::geometry::Curve;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{EdgeNode, Level, Numbering, Partition};
     use std::rc::Rc;

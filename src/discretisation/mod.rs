@@ -44,7 +44,7 @@ pub use level_ranks::{SMALL, ranks_in_group};
 pub use levels::{Discretisation, WithoutContact, finest_numbering, node_count, spaces};
 pub use motions::{
     adrift, few_that_hold, free_motion_if_closed, needed_contacts, not_held, not_held_if_closed, rigid_motions, rigid_start,
-    settle,
+    settle, shifts_held_by_supports,
 };
 pub use scene::{Scene, spread};
 pub use solution::Solution;

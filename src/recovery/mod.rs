@@ -21,6 +21,7 @@ mod contact_forces;
 mod corners;
 mod cut_off;
 mod deformation;
+mod direction_error;
 mod end_slip;
 mod error_norm;
 mod evaluation;

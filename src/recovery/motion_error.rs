@@ -18,6 +18,7 @@
 //! zero. Where both ends of contact lie inside the boundaries, a tilt of the gap moves the contact and does not change λ.
 
 use super::deformation::Deformation;
+use super::direction_error::direction_errors;
 use super::slant::slant;
 use super::traces::TracePoint;
 use crate::body::RigidSet;
@@ -55,6 +56,8 @@ pub struct MotionError {
     pub rotation_error: f64,
     /// Angle between Γ_C and the side on which a corner of the other one presses (radians): the direction of the force is off by it.
     pub slant: f64,
+    /// Force that this contact takes up once those on its bodies have turned with the bodies, by its own.
+    pub direction_error: f64,
 }
 
 /// For each contact what motions spoil; nothing where no body is strained. `energy` is the strain energy of each body, `turns` the
@@ -68,14 +71,14 @@ pub fn motion_errors(
 ) -> Vec<Option<MotionError>> {
     let follows = |contact: &Contact| contact.pair.configuration == Configuration::Reference && contact.known.meeting.is_some();
     // What equilibrium sets is right whatever is left out, but the motion of a tool is off by all of that.
-    let mut needed = needed_contacts(problem, &solution.active, session);
-    for (contact, needed) in problem.contacts.iter().zip(&mut needed) {
-        *needed &= !is_between_tools(problem, contact, &|set| set.free().next().is_some());
-    }
+    let needed = needed_contacts(problem, &solution.active, session);
+    let is_set =
+        |(contact, &needed): (&Contact, &bool)| needed && !is_between_tools(problem, contact, &|set| set.free().next().is_some());
+    let set: Vec<bool> = problem.contacts.iter().zip(&needed).map(is_set).collect();
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let motion = || BoundaryMotion::new(&problem.scene, space, &solution.displacement, session);
     let motion = problem.contacts.iter().any(follows).then(motion);
-    let with_sides = |(contact, &needed): (&Contact, &bool)| {
+    let with_sides = |(contact, &is_set): (&Contact, &bool)| {
         let meeting = contact.known.meeting.as_ref().filter(|_| follows(contact)).zip(motion.as_ref());
         let sides = meeting.map(|(meeting, motion)| {
             let displacement = |node: EdgeNode| motion.at(node, mesh, space);
@@ -84,21 +87,28 @@ pub fn motion_errors(
             sides
         });
         let sides = meeting.zip(sides.as_ref()).map(|((meeting, _), sides)| meeting.sides(sides));
-        one(problem, solution, (contact, needed), energy, (bodies, turns), sides, session)
+        one(problem, solution, (contact, is_set), energy, (bodies, turns), sides, session)
     };
-    problem.contacts.iter().zip(&needed).map(with_sides).collect()
+    let found: Vec<Option<(MotionError, FiniteMotion)>> = problem.contacts.iter().zip(&set).map(with_sides).collect();
+    let motions: Vec<Option<&FiniteMotion>> = found.iter().map(|found| found.as_ref().map(|(_, motion)| motion)).collect();
+    let directions = direction_errors(problem, &motions);
+    found
+        .iter()
+        .zip(directions)
+        .map(|(found, direction_error)| Some(MotionError { direction_error, ..found.as_ref()?.0 }))
+        .collect()
 }
 
-/// What motions spoil of one contact, which may be `needed` to hold bodies. **Collective**
+/// What motions spoil of one contact but for the direction of forces; equilibrium may set its force (`is_set`). **Collective**
 fn one(
     problem: &Discretisation,
     solution: &Solution,
-    (contact, needed): (&Contact, bool),
+    (contact, is_set): (&Contact, bool),
     energy: &[f64],
     (bodies, turns): (&[Deformation], &[f64]),
     sides: Option<[&SmoothSide; 2]>,
     session: &Session,
-) -> Option<MotionError> {
+) -> Option<(MotionError, FiniteMotion)> {
     let turns = [0, 1].map(|side| {
         let body = &bodies[contact.bodies[side]];
         let is_tool = problem.scene.tool(contact.bodies[side]).is_some();
@@ -121,15 +131,17 @@ fn one(
     let rolled = if may_turn { rolling_error(contact, &found, tool_turn, lever / found.force) } else { 0.0 };
     let error = |gap: &GapError| {
         // By how much the energy, and so the force where displacements set it, is off.
-        let force = if needed { 0.0 } else { (growth - gap.work).abs() / (2.0 * energy) };
+        let force = if is_set { 0.0 } else { (growth - gap.work).abs() / (2.0 * energy) };
         force.max(pressure_error(contact, &found, gap)).max(rolled)
     };
-    Some(MotionError {
+    let spoilt = MotionError {
         slip: sides.map(|_| found.slip / found.length),
         slip_error: sides.map(|_| error(&found.whole)),
         rotation_error: error(&found.turning),
         slant: sides.map_or(0.0, |sides| slant(&problem.scene, &solution.pressure(contact), sides)),
-    })
+        direction_error: 0.0,
+    };
+    Some((spoilt, found))
 }
 
 /// The turn of a body that counts in a contact (radians), by that beside it and the mean of the body: the smaller one, and none where a

@@ -5,7 +5,7 @@
 //! its seat is held by 1e-2. A body whose loads do no work on its free motion, as a disc that is squeezed from above and below,
 //! is in balance, but its turn is not determined: it is not held either.
 
-use crate::body::{Constraints, RigidSet, UNIT_MOTIONS};
+use crate::body::{Constraints, HeldMode, MeanHold, RigidSet, UNIT_MOTIONS};
 use crate::contact::{self, Condition, Extent, Mechanism, Side, Touch, find_mechanism};
 use crate::discretisation::contacts::{Contact, Coupled, coupled_here};
 use crate::discretisation::error::SystemError;
@@ -16,6 +16,7 @@ use crate::element::{Order, Plane};
 use crate::geometry::{AXES, Point};
 use crate::mesh::{Level, MacroMesh, Numbering, SmoothNormals, each_once};
 use crate::petsc::Session;
+use nalgebra::{Matrix2, Vector2};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
@@ -64,6 +65,23 @@ pub fn free_motion_if_closed(
 pub fn needed_contacts(problem: &Discretisation, active: &[bool], session: &Session) -> Vec<bool> {
     let (whole, extents) = (Restraints::of(problem, session), problem.scene.extents());
     contact::needed_contacts(&extents, &support_conditions(&problem.scene, &extents), &whole.touches(&extents, active))
+}
+
+/// For each body that supports alone do not hold what they hold of its shifts: `Σ d dᵀ` over the directions d that they see.
+pub fn shifts_held_by_supports(scene: &Scene) -> Vec<Option<Matrix2<f64>>> {
+    let extents = scene.extents();
+    let mut of_piece: Vec<Vec<Condition>> = vec![Vec::new(); extents.len()];
+    let conditions = support_conditions(scene, &extents).into_iter();
+    conditions.for_each(|condition| of_piece[condition.piece].push(Condition { piece: 0, ..condition }));
+    let mut shifts: Vec<Option<Matrix2<f64>>> = vec![None; scene.bodies.len()];
+    for (piece, own) in of_piece.iter().enumerate() {
+        if find_mechanism(&extents[piece..=piece], own, &[]).is_some() {
+            let seen = own.iter().map(|condition| Vector2::new(condition.sees[0][0], condition.sees[0][1]));
+            *shifts[scene.mesh.pieces[piece].body].get_or_insert_default() +=
+                seen.map(|d| d * d.transpose()).sum::<Matrix2<f64>>();
+        }
+    }
+    shifts
 }
 
 /// Of the open multipliers those that hold every body if they close: for one motion after the other that nothing holds, the one with
@@ -236,7 +254,23 @@ fn support_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
     };
     let free = scene.rigid.iter().filter(|set| set.free().next().is_some());
     let rigid = free.flat_map(|set| rigid_conditions(scene, set, extents)).chain(revolution_conditions(scene));
-    supported(scene, &numbering).into_iter().filter_map(condition).chain(rigid).chain(spring_conditions(scene, extents)).collect()
+    let held = supported(scene, &numbering, &[]).into_iter().filter_map(condition);
+    held.chain(mean_conditions(scene, extents)).chain(rigid).chain(spring_conditions(scene, extents)).collect()
+}
+
+/// The mean motions that are held: a turn about the middle of a body, or the shift of that. Anchors would hold a turn as far as the body
+/// does not shift.
+fn mean_conditions(scene: &Scene, extents: &[Extent]) -> impl Iterator<Item = Condition> {
+    let mesh = &scene.mesh;
+    let of_hold = |hold: &MeanHold| {
+        let piece = mesh.pieces.iter().position(|piece| mesh.bodies[piece.body] == hold.body);
+        let condition = |held: &HeldMode| match held.is_turn() {
+            true => Some(Condition { piece: piece?, against: None, sees: [UNIT_MOTIONS[2], [0.0; 3]], doubt: 0.0 }),
+            false => Condition::new(extents, piece?, None, &[(hold.middle, held.direction())], 0.0),
+        };
+        hold.held.iter().filter_map(condition).collect::<Vec<_>>()
+    };
+    scene.means.iter().flat_map(of_hold)
 }
 
 /// The motions that no body of revolution has: shifts across the axis, and turns.
@@ -309,9 +343,10 @@ pub struct Held {
     pub value: f64,
 }
 
-/// Everything that supports prescribe at the macro vertices, and rigid sets that are not free in any component.
-pub fn supported(scene: &Scene, numbering: &Numbering) -> Vec<Held> {
-    let Ok(constraints) = Constraints::new(&scene.mesh, numbering, &scene.supports, &scene.means, &scene.rigid) else {
+/// Everything that supports prescribe at the macro vertices, rigid sets that are not free in any component, and these means at their
+/// anchors.
+pub fn supported(scene: &Scene, numbering: &Numbering, means: &[MeanHold]) -> Vec<Held> {
+    let Ok(constraints) = Constraints::new(&scene.mesh, numbering, &scene.supports, means, &scene.rigid) else {
         return Vec::new();
     };
     let mut piece = vec![0; scene.mesh.vertices.len()];

@@ -33,7 +33,7 @@ fn motions(scene: &Scene) -> Option<Vec<Vector3<f64>>> {
     let extents = scene.extents();
     let mut sums = vec![(Matrix3::<f64>::zeros(), Vector3::<f64>::zeros()); extents.len()];
     let mut moves = false;
-    for Held { piece, place, direction, value, .. } in supported(scene, &numbering) {
+    for Held { piece, place, direction, value, .. } in supported(scene, &numbering, &scene.means) {
         let arm = (place - extents[piece].middle) / extents[piece].radius;
         let row = Vector3::new(direction.x, direction.y, direction.y * arm.x - direction.x * arm.y);
         sums[piece].0 += row * row.transpose();

@@ -55,6 +55,8 @@ pub struct ContactSummary {
     pub rotation_error: Option<f64>,
     /// Angle between the contact boundary and the side on which a corner of the other one presses (radians).
     pub slant: Option<f64>,
+    /// What forces on the same free bodies have along the force of this contact once the bodies have moved, and not before, by that force.
+    pub direction_error: Option<f64>,
     /// Sharpest corner of a body within what presses, in degrees; of fitted curves only.
     pub corner_angle: Option<f64>,
     /// Estimated relative error of λ by that corner.

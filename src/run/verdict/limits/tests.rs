@@ -5,7 +5,7 @@ use crate::accuracy::{NARROWEST, WORTH_WITHIN_SEGMENTS};
 use crate::procedure::MOVES;
 
 /// Every row of the table, with its figure.
-const ROWS: [(&str, &Limit); 29] = [
+const ROWS: [(&str, &Limit); 30] = [
     ("inf_sup", &INF_SUP),
     ("oscillation", &OSCILLATION),
     ("zones[].edges", &EDGES),
@@ -30,6 +30,7 @@ const ROWS: [(&str, &Limit); 29] = [
     ("lost_at_ends", &LOST_AT_ENDS),
     ("slip_at_ends", &SLIP_AT_ENDS),
     ("slant", &SLANT),
+    ("direction_error", &DIRECTION),
     ("rotation_error", &TURNING),
     ("rotation_error", &GROWTH),
     ("rotation_max", &ROTATION),
