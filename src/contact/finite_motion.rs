@@ -6,7 +6,7 @@ use super::multiplier::Multipliers;
 use super::pair::Configuration;
 use super::smooth_side::SmoothSide;
 use crate::geometry::{Curve, Point, gauss_points, turn_right};
-use nalgebra::Rotation2;
+use nalgebra::{Matrix2, Rotation2};
 
 /// Gauss points of a segment.
 const POINTS: usize = 2;
@@ -43,8 +43,8 @@ pub struct FiniteMotion {
     pub turning: GapError,
     /// `∫λ ds` (force per thickness).
     pub force: f64,
-    /// `∫λ n ds` by the normals n of Γ_C (force per thickness).
-    pub resultant: Point,
+    /// `∫λ n nᵀ ds` by the normals n of Γ_C (force per thickness): the directions in which it presses.
+    pub normals: Matrix2<f64>,
     /// `∫λ (n' - n) ds` by the normals n' that the displaced sides have in common (force per thickness): zero on straight lines and on
     /// boundaries that follow the deformed bodies.
     pub turned: Point,
@@ -119,7 +119,7 @@ pub fn finite_motion(
         whole: gap_error(&pressed, force, |point| point.moved),
         turning: gap_error(&pressed, force, |point| point.moved - point.shifted),
         force,
-        resultant: normals.clone().map(|(_, weight, normal)| weight * normal).sum(),
+        normals: normals.clone().map(|(_, weight, normal)| weight * normal * normal.transpose()).sum(),
         turned: normals.filter_map(turned).sum(),
         length,
     }

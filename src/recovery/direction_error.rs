@@ -11,33 +11,31 @@ use crate::element::Plane;
 use crate::geometry::Point;
 use nalgebra::Matrix2;
 
-/// Resistance to a shift, by the largest, that counts as none: contacts whose normals are parallel but for rounding and for what a mesh
-/// file with six digits makes of them hold nothing across.
+/// Resistance to a shift, by the largest, that counts as none: contacts whose normals are parallel but for rounding, and for what a mesh
+/// file with six digits makes of them, hold nothing across.
 const NOTHING: f64 = 1e-6;
 
 /// For each contact what it takes up on either of its bodies, the larger one, by its own force; zero where nothing presses. Forces of the
 /// contacts of a body change as little as balance of its shifts allows, together with those of supports that see them.
 pub fn direction_errors(problem: &Discretisation, motions: &[Option<&FiniteMotion>]) -> Vec<f64> {
     let contacts = &problem.contacts;
-    let is_of_revolution = problem.scene.mesh.plane == Plane::Revolution;
-    let part = |force: Point| if is_of_revolution { Point::new(0.0, force.y) } else { force };
+    // A body of revolution is shifted along its axis alone.
+    let shifted =
+        if problem.scene.mesh.plane == Plane::Revolution { Matrix2::new(0.0, 0.0, 0.0, 1.0) } else { Matrix2::identity() };
+    let resistance = |motion: &FiniteMotion| shifted * motion.normals * shifted / motion.force;
     let mut of_body: Vec<Vec<(usize, &FiniteMotion, f64)>> = vec![Vec::new(); problem.scene.bodies.len()];
     for (at, motion) in motions.iter().enumerate() {
-        let pressing = motion.filter(|motion| motion.force > 0.0).into_iter();
-        pressing.for_each(|motion| {
-            contacts[at].bodies.into_iter().zip([1.0, -1.0]).for_each(|(body, sign)| of_body[body].push((at, motion, sign)))
-        });
+        let Some(motion) = motion.filter(|motion| motion.force > 0.0) else { continue };
+        contacts[at].bodies.into_iter().zip([1.0, -1.0]).for_each(|(body, sign)| of_body[body].push((at, motion, sign)));
     }
     let mut errors = vec![0.0; contacts.len()];
     for (own, held) in of_body.iter().zip(shifts_held_by_supports(&problem.scene)) {
         let Some(held) = held else { continue };
-        let direction = |motion: &FiniteMotion| part(motion.resultant) / motion.force;
-        let resistance =
-            own.iter().map(|(_, motion, _)| direction(motion) * direction(motion).transpose()).sum::<Matrix2<f64>>() + held;
-        let turned: Point = own.iter().map(|(_, motion, sign)| *sign * part(motion.turned)).sum();
-        let shift = shift_by(resistance, turned);
+        let all = own.iter().map(|(_, motion, _)| resistance(motion)).sum::<Matrix2<f64>>() + held;
+        let turned: Point = own.iter().map(|(_, motion, sign)| *sign * shifted * motion.turned).sum();
+        let shift = shift_by(all, turned);
         for &(at, motion, _) in own {
-            errors[at] = f64::max(errors[at], direction(motion).dot(&shift).abs() / motion.force);
+            errors[at] = f64::max(errors[at], (resistance(motion) * shift).norm() / motion.force);
         }
     }
     errors
