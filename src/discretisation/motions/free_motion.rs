@@ -3,7 +3,7 @@
 use crate::body::{Applied, MOTIONS, RigidNodes, RigidSet, UNIT_MOTIONS, applied_forces, rigid_displacement};
 use crate::contact::{Condition, Extent, Mechanism, Touch, find_mechanism};
 use crate::discretisation::scene::Scene;
-use crate::element::Order;
+use crate::element::{Order, Plane};
 use crate::geometry::Point;
 use crate::mesh::{Level, Numbering};
 use std::collections::HashMap;
@@ -48,7 +48,7 @@ impl FreeMotion<'_> {
             return words;
         }
         let extent = &self.extents[self.mechanism.piece];
-        let holds_all = |at: &SupportPoint| self.is_held_by(&[(at.point, Point::ith(at.axis, 1.0))], touches);
+        let holds_all = |at: &SupportPoint| self.is_held_by([vec![(at.point, Point::ith(at.axis, 1.0))]].into_iter(), touches);
         let mut candidates = self.support_points(extent);
         candidates.sort_by(|a, b| (b.free, b.moves).partial_cmp(&(a.free, a.moves)).unwrap_or(std::cmp::Ordering::Equal));
         let Some(at) = candidates.iter().take(MOST_POINTS).find(|at| holds_all(at)).or(candidates.first()) else {
@@ -91,7 +91,9 @@ impl FreeMotion<'_> {
         let (mesh, name) = (&self.scene.mesh, &self.scene.bodies[self.body()].name);
         let before = self.scene.means.iter().find(|hold| hold.body == *name);
         let held = UNIT_MOTIONS.map(|mode| before.is_some_and(|hold| hold.held.iter().any(|held| held.mode == mode)));
-        let count = before.map_or(0, |hold| hold.held.len());
+        // A body of revolution neither shifts across its axis nor turns.
+        let by_itself = if mesh.plane == Plane::Revolution { 2 } else { 0 };
+        let count = by_itself + before.map_or(0, |hold| hold.held.len());
         let others = self.supports.iter().filter(|condition| condition.piece == piece).count() > count;
         let is_whole = mesh.pieces.iter().filter(|own| own.body == self.body()).count() == 1;
         if others || !is_whole || self.is_driven() {
@@ -104,15 +106,24 @@ impl FreeMotion<'_> {
         able.sort_by(|a, b| sizes[*b].total_cmp(&sizes[*a]));
         let arms = [Point::new(radius, 0.0), Point::new(0.0, radius)].map(|arm| [arm, -arm]);
         let places = || arms.as_flattened().iter().map(|arm| middle + arm);
-        let terms = |k: usize| places().map(|x| (x, rigid_displacement(middle, &UNIT_MOTIONS[k], x))).collect::<Vec<_>>();
-        let k = able.iter().copied().find(|&k| self.is_held_by(&terms(k), touches)).or(able.first().copied())?;
-        Some(match before {
-            Some(hold) => {
-                format!("no load of its own drives that: hold it by {} = 0.0 in support.{}, too", MOTIONS[k], hold.name)
+        let terms = |k: &usize| places().map(|x| (x, rigid_displacement(middle, &UNIT_MOTIONS[*k], x))).collect::<Vec<_>>();
+        let holds = |modes: &[usize]| self.is_held_by(modes.iter().map(terms), touches);
+        // One mode that holds all, or as many as it takes.
+        let one = able.iter().copied().find(|&k| holds(&[k]));
+        let mut modes = vec![one.or(able.first().copied())?];
+        for k in (0..3).filter(|k| !held[*k]) {
+            if !modes.contains(&k) && !holds(&modes) {
+                modes.push(k);
             }
+        }
+        if !holds(&modes) {
+            modes.truncate(1);
+        }
+        let keys = modes.iter().map(|&k| format!("{} = 0.0", MOTIONS[k])).collect::<Vec<_>>().join(" and ");
+        Some(match before {
+            Some(hold) => format!("no load of its own drives that: hold it by {keys} in support.{}, too", hold.name),
             None => format!(
-                "no load of its own drives that: hold its mean, for example by a support with mean = true, body = \"{name}\" and {} = 0.0",
-                MOTIONS[k]
+                "no load of its own drives that: hold its mean, for example by a support with mean = true, body = \"{name}\" and {keys}"
             ),
         })
     }
@@ -121,9 +132,10 @@ impl FreeMotion<'_> {
         self.scene.mesh.pieces[self.mechanism.piece].body
     }
 
-    /// Whether all is held if these points of the piece are, too, each along a direction, in the mean.
-    fn is_held_by(&self, terms: &[(Point, Point)], touches: &[Touch]) -> bool {
-        let with: Vec<Condition> = Condition::new(self.extents, self.mechanism.piece, None, terms, 0.0).into_iter().collect();
+    /// Whether all is held if these groups of points of the piece are, too, each point along a direction, in the mean of its group.
+    fn is_held_by(&self, groups: impl Iterator<Item = Vec<(Point, Point)>>, touches: &[Touch]) -> bool {
+        let condition = |terms: Vec<(Point, Point)>| Condition::new(self.extents, self.mechanism.piece, None, &terms, 0.0);
+        let with: Vec<Condition> = groups.filter_map(condition).collect();
         find_mechanism(self.extents, &[self.supports, &with].concat(), touches).is_none()
     }
 

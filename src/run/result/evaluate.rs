@@ -1,6 +1,7 @@
 //! A solution made into a summary, with its files, its status and its reason.
 
 use super::figures::Shown;
+use crate::discretisation::adrift;
 use crate::output::summary::{ContactSummary, EstimateSummary, Status, Summary, listed};
 use crate::output::{CONTACTS, RunError, contacts_table, write_text};
 use crate::procedure::{Solved, Work};
@@ -12,7 +13,7 @@ use crate::run::telling::progress;
 use crate::run::verdict::exact::compare;
 use crate::run::verdict::no_result::{NO_NUMBERS, no_result};
 use crate::run::verdict::trust;
-use crate::run::verdict::unresolved::unresolved;
+use crate::run::verdict::unresolved::{pressed_by_rounding, unresolved};
 use crate::run::verdict::warnings::after::{apart, large_strains, loaded_points, slivers};
 use crate::run::verdict::warnings::before::{IDLE, TO_DRIVE};
 use crate::run::verdict::warnings::loose::comes_loose;
@@ -101,7 +102,9 @@ impl Run<'_> {
             let missed = (self.case.exact.must_hold && !missed.is_empty())
                 .then(|| format!("expected values are missed ({})", missed.join("; ")));
             let stopped = missed.or_else(|| no_result(summary, self.case)).map(|words| (Status::NotConverged, words));
-            let coarse = || Some((Status::Unresolved, unresolved(summary, self.case, solved.ending.still_moved())?));
+            let loose = self.adrift(summary, solved);
+            let coarse =
+                || Some((Status::Unresolved, loose.or_else(|| unresolved(summary, self.case, solved.ending.still_moved()))?));
             (status, reason) = stopped.or_else(coarse).unwrap_or((status, reason));
         }
         let judgement = trust::judge(summary, self.case, solved.ending.is_converged());
@@ -118,6 +121,19 @@ impl Run<'_> {
             reason = format!("{reason}; {words}");
         }
         (status, reason)
+    }
+}
+
+impl Run<'_> {
+    /// Words for a body that is held by contacts alone on which rounding presses, and that nothing drives. **Collective**
+    fn adrift(&self, summary: &Summary, solved: &Solved) -> Option<String> {
+        let (problem, mut active) = (&solved.problem, solved.solution.active.clone());
+        let names = pressed_by_rounding(summary, self.case);
+        let loose = problem.contacts.iter().filter(|contact| names.contains(&contact.pair.name));
+        loose.for_each(|contact| active[contact.range()].fill(false));
+        let name = names.first()?;
+        let words = adrift(problem, &active, self.session)?;
+        Some(format!("contact {name}: what presses is rounding, so that where its bodies lie is not told: {words}"))
     }
 }
 
