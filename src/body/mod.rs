@@ -2,7 +2,6 @@
 
 mod applied_force;
 mod constraint;
-mod folding;
 mod formula_check;
 mod holders;
 mod macro_stiffness;
@@ -14,12 +13,11 @@ mod springs;
 
 pub use applied_force::{Applied, applied_forces, body_forces, heat_forces};
 pub use constraint::{Constraint, Constraints};
-pub use folding::check_folding;
 pub use formula_check::{check_body_forces, check_loads, varies};
 pub use holders::Holders;
 pub use macro_stiffness::{MacroStiffness, neighbours, one_stiffness};
 pub use mean_hold::{Anchor, HeldMode, MeanHold};
-pub use node_positions::{NodePositions, positions, positions_of_one};
+pub use node_positions::{NodePositions, check_folding, positions, positions_of_one};
 pub use rigid::{MOTIONS, Motion, RigidNodes, RigidSet, UNIT_MOTIONS, rigid_displacement};
 pub use singular_place::{CHORDS, SingularPlace, Unbounded, singular_places};
 pub use springs::{SpringStiffness, Springs};

@@ -3,6 +3,7 @@
 use crate::body::{NodePositions, positions, positions_of_one};
 use crate::discretisation::field::Field;
 use crate::discretisation::levels::Discretisation;
+use crate::element::{Heat, PlaneLaw};
 use crate::geometry::Point;
 use crate::mesh::Level;
 use crate::mesh::lattice::{self, Triangle};
@@ -54,6 +55,12 @@ impl Discretisation {
         let numbering = &self.finest().numbering;
         let numbers = numbering.triangle(&self.scene.mesh, triangle);
         lattice::nodes(numbering.level.intervals).map(|(i, j)| u.point(numbers.node(i, j))).collect()
+    }
+
+    /// The law of a macro triangle, and what heats it.
+    pub fn material(&self, triangle: usize) -> (PlaneLaw, Option<&Heat>) {
+        let part = self.scene.part(self.scene.mesh.triangles[triangle].part as usize);
+        (part.material.law(), part.heat.as_ref())
     }
 
     /// Shows all elements of a macro triangle, in the order of the lattice.

@@ -1,7 +1,7 @@
 //! Where in the macro triangles the strain energy of a displacement lies.
 
 use crate::discretisation::{Discretisation, Field, SystemError, agreed};
-use crate::element::{BadJacobian, PlaneLaw, by_order, energies};
+use crate::element::{BadJacobian, by_order, energies};
 use crate::mesh::Cells;
 use crate::petsc::Session;
 
@@ -13,21 +13,15 @@ const MIDDLE: f64 = 0.25;
 /// # Errors
 /// [`SystemError`] from an inverted triangle.
 pub fn cell_energies(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<Cells>, SystemError> {
-    let (mesh, laws) = (&problem.scene.mesh, problem.scene.laws());
     let own = problem.scene.partition.triangles_of(session.rank());
     let one = |&triangle: &u32| {
-        let law = &laws[mesh.triangles[triangle as usize].part as usize];
-        by_order!(problem.finest().numbering.level.order, in_triangle(problem, u, triangle as usize, law))
+        by_order!(problem.finest().numbering.level.order, in_triangle(problem, u, triangle as usize)).map_err(SystemError::from)
     };
-    agreed(session, own.iter().map(|triangle| one(triangle).map_err(SystemError::from)).collect())
+    agreed(session, own.iter().map(one).collect())
 }
 
-fn in_triangle<const N: usize>(
-    problem: &Discretisation,
-    u: &Field<2>,
-    triangle: usize,
-    law: &PlaneLaw,
-) -> Result<Cells, BadJacobian> {
+fn in_triangle<const N: usize>(problem: &Discretisation, u: &Field<2>, triangle: usize) -> Result<Cells, BadJacobian> {
+    let (law, _) = problem.material(triangle);
     let intervals = problem.finest().numbering.level.intervals as f64;
     let mut cells = Cells::default();
     problem.each_element::<N, _>(triangle, |element| {
@@ -36,7 +30,7 @@ fn in_triangle<const N: usize>(
             let [x, y] = [0, 1].map(|axis| (0..3).map(|k| l[k] * corners[k][axis]).sum::<f64>());
             [1.0 - x - y, x, y]
         };
-        for (l, energy) in energies(&element.x, &u.on(element), law)? {
+        for (l, energy) in energies(&element.x, &u.on(element), &law)? {
             cells.add(place(l), (1.0 - MIDDLE) * energy);
             cells.add(place([1.0 / 3.0; 3]), MIDDLE * energy);
         }

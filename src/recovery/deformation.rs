@@ -1,7 +1,7 @@
 //! How far the bodies are strained and turned: whether a theory of small strains and rotations holds.
 
 use crate::discretisation::{Discretisation, Field, SystemError, agreed};
-use crate::element::{Heat, Plane, PlaneLaw, Strain, by_order, jacobian, place_of, strain};
+use crate::element::{Plane, Strain, by_order, jacobian, place_of, strain};
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, MacroTriangle};
 use crate::petsc::Session;
@@ -47,15 +47,14 @@ pub fn deformations(
     u: &Field<2>,
     session: &Session,
 ) -> Result<(Vec<Deformation>, Vec<f64>), SystemError> {
-    let (mesh, laws) = (&problem.scene.mesh, problem.scene.laws());
+    let mesh = &problem.scene.mesh;
     let mut totals = vec![BodyIntegrals::default(); mesh.bodies.len()];
     // What neighbours need of a macro triangle: its strain, its area and its rotation.
     let mut sums = vec![[0.0; 3]; mesh.triangles.len()];
     let own = problem.scene.partition.triangles_of(session.rank());
     let added = own.iter().try_for_each(|&at| {
         let triangle = &mesh.triangles[at as usize];
-        let material = (&laws[triangle.part as usize], problem.scene.heat(triangle.part as usize));
-        let found = by_order!(problem.finest().numbering.level.order, integrals(problem, u, at as usize, material))?;
+        let found = by_order!(problem.finest().numbering.level.order, integrals(problem, u, at as usize))?;
         add_to_body(&mut totals[triangle.body as usize], &found, centroid(mesh, triangle));
         sums[at as usize] = [found[0], found[1], found[2]];
         Ok(())
@@ -163,13 +162,9 @@ fn with_neighbours(mesh: &MacroMesh, own: &[u32], sums: &[[f64; 3]]) -> Vec<[f64
 }
 
 /// The integrals over a macro triangle: one point for each element.
-fn integrals<const N: usize>(
-    problem: &Discretisation,
-    u: &Field<2>,
-    triangle: usize,
-    (law, heat): (&PlaneLaw, Option<&Heat>),
-) -> Result<TriangleIntegrals, SystemError> {
+fn integrals<const N: usize>(problem: &Discretisation, u: &Field<2>, triangle: usize) -> Result<TriangleIntegrals, SystemError> {
     const MIDDLE: [f64; 3] = [1.0 / 3.0; 3];
+    let (law, heat) = problem.material(triangle);
     let mut sums = TriangleIntegrals::default();
     if let Some(even) = problem.even_triangle::<N>(triangle, u).filter(|_| heat.is_none()) {
         let (slopes, area) = jacobian(&even.x, MIDDLE)?;
@@ -181,7 +176,7 @@ fn integrals<const N: usize>(
         return Ok(sums);
     }
     problem.each_element::<N, _>(triangle, |element| {
-        let (found, area) = strain(&element.x, &u.on(element), MIDDLE, law)?;
+        let (found, area) = strain(&element.x, &u.on(element), MIDDLE, &law)?;
         let middle = place_of(&element.x, MIDDLE);
         add_element(&mut sums, area, &found, law.heated(law.stress(&found), heat, middle), law.plane.width(middle));
         Ok::<(), SystemError>(())

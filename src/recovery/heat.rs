@@ -5,7 +5,7 @@
 
 use crate::body::heat_forces;
 use crate::discretisation::{Discretisation, Field, SystemError, agreed};
-use crate::element::{BadJacobian, Heat, PlaneLaw, SIX_POINTS, by_order, jacobian, six_points};
+use crate::element::{BadJacobian, SIX_POINTS, by_order, jacobian, six_points};
 use crate::petsc::Session;
 
 /// What heat does in a part of a body (energies per thickness, or of the whole body of revolution).
@@ -30,11 +30,12 @@ pub fn heat_energies(problem: &Discretisation, u: &Field<2>, session: &Session) 
     let (parts, numbering) = (scene.parts(), &problem.finest().numbering);
     let added = scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
         let at = scene.mesh.triangles[triangle as usize].part as usize;
-        let Some(heat) = &parts[at].heat else { return Ok(()) };
+        if parts[at].heat.is_none() {
+            return Ok(());
+        }
         let [work, kept] = &mut sums[at];
         heat_forces(&scene.mesh, triangle as usize, numbering, parts[at], &mut |node, force| *work += force.dot(&u.point(node)))?;
-        let law = parts[at].material.law();
-        *kept += by_order!(numbering.level.order, kept_energy(problem, triangle as usize, &law, heat))?;
+        *kept += by_order!(numbering.level.order, kept_energy(problem, triangle as usize))?;
         Ok::<(), SystemError>(())
     });
     agreed(session, added)?;
@@ -42,13 +43,9 @@ pub fn heat_energies(problem: &Discretisation, u: &Field<2>, session: &Session) 
     Ok(sums.into_iter().map(|[work, kept]| HeatEnergy { work, kept }).collect())
 }
 
-/// `½∫ d p α ϑ` of a macro triangle.
-fn kept_energy<const N: usize>(
-    problem: &Discretisation,
-    triangle: usize,
-    law: &PlaneLaw,
-    heat: &Heat,
-) -> Result<f64, BadJacobian> {
+/// `½∫ d p α ϑ` of a macro triangle; zero if nothing heats it.
+fn kept_energy<const N: usize>(problem: &Discretisation, triangle: usize) -> Result<f64, BadJacobian> {
+    let (law, Some(heat)) = problem.material(triangle) else { return Ok(0.0) };
     let mut sum = 0.0;
     problem.each_element::<N, _>(triangle, |element| {
         for (&(l, weight), x) in SIX_POINTS.iter().zip(six_points(&element.x)) {

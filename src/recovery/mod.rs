@@ -29,7 +29,6 @@ mod heat;
 mod motion_error;
 mod node_sums;
 mod overlaps;
-mod penetrations;
 mod probe;
 mod shape_error;
 mod slant;

@@ -1,7 +1,7 @@
 //! Displacement and stress at a point of a body.
 
 use crate::discretisation::{Discretisation, Element, Field, SystemError, agreed};
-use crate::element::{Heat, PlaneLaw, SIX_POINTS, by_order, heated_stress, shape, stress};
+use crate::element::{SIX_POINTS, by_order, heated_stress, shape, stress};
 use crate::geometry::{AXES, Point};
 use crate::mesh::Region;
 use crate::mesh::lattice::Triangle;
@@ -44,13 +44,10 @@ pub fn probe(
     x: Point,
     session: &Session,
 ) -> Result<Option<Probed>, SystemError> {
-    let (scene, laws) = (&problem.scene, problem.scene.laws());
     for near in OUTSIDE {
         let mut sums = [0.0; 7];
         let added = holding_nearly(problem, region, x, near, session).into_iter().try_for_each(|(triangle, at)| {
-            let heat = scene.heat(scene.mesh.triangles[triangle].part as usize).filter(|_| probing == Probing::Displacement);
-            let material = (law_of(problem, &laws, triangle), heat);
-            let values = by_order!(problem.finest().numbering.level.order, values_at(problem, u, triangle, at, material))?;
+            let values = by_order!(problem.finest().numbering.level.order, values_at(problem, (u, probing), triangle, at))?;
             values.iter().chain(&[1.0]).zip(&mut sums).for_each(|(value, sum)| *sum += value);
             Ok::<(), SystemError>(())
         });
@@ -86,11 +83,9 @@ pub fn stress_around(
     x: Point,
     session: &Session,
 ) -> Result<f64, SystemError> {
-    let laws = problem.scene.laws();
     let mut sums = [0.0; 2];
     let added = holding(problem, region, x, session).into_iter().try_for_each(|(triangle, at)| {
-        let law = law_of(problem, &laws, triangle);
-        by_order!(problem.finest().numbering.level.order, add_squares(problem, u, triangle, at, law, &mut sums))
+        by_order!(problem.finest().numbering.level.order, add_squares(problem, u, triangle, at, &mut sums))
     });
     agreed(session, added)?;
     session.sum(&mut sums);
@@ -102,13 +97,12 @@ fn add_squares<const N: usize>(
     u: &Field<2>,
     triangle: usize,
     at: Point,
-    law: &PlaneLaw,
     sums: &mut [f64; 2],
 ) -> Result<(), SystemError> {
     let (element, _) = element_at::<N>(problem, triangle, at);
-    let nodal = u.on(&element);
+    let ((law, _), nodal) = (problem.material(triangle), u.on(&element));
     for &(l, weight) in SIX_POINTS {
-        let s = stress(&element.x, &nodal, l, law)?;
+        let s = stress(&element.x, &nodal, l, &law)?;
         sums[0] += weight * law.plane.stress_product(s, s);
         sums[1] += weight;
     }
@@ -141,11 +135,9 @@ pub fn stress_forces(
     x: Point,
     session: &Session,
 ) -> Result<Field<2>, SystemError> {
-    let laws = problem.scene.laws();
     let mut forces = Field::<2>::zeros(&problem.scene, problem.finest(), session);
     let added = holding(problem, region, x, session).into_iter().try_for_each(|(triangle, at)| {
-        let law = law_of(problem, &laws, triangle);
-        by_order!(problem.finest().numbering.level.order, add_stress_forces(problem, u, triangle, at, law, &mut forces))
+        by_order!(problem.finest().numbering.level.order, add_stress_forces(problem, u, triangle, at, &mut forces))
     });
     agreed(session, added)?;
     Ok(forces.sum(session))
@@ -156,11 +148,11 @@ fn add_stress_forces<const N: usize>(
     u: &Field<2>,
     triangle: usize,
     at: Point,
-    law: &PlaneLaw,
     forces: &mut Field<2>,
 ) -> Result<(), SystemError> {
     let (element, _) = element_at::<N>(problem, triangle, at);
-    let mean = |u: &[Point; N]| stress(&element.x, u, MIDDLE, law);
+    let (law, _) = problem.material(triangle);
+    let mean = |u: &[Point; N]| stress(&element.x, u, MIDDLE, &law);
     let pointing = mean(&u.on(&element))?;
     for (k, node) in element.nodes.into_iter().enumerate() {
         let sum = forces.at_mut(node);
@@ -174,23 +166,19 @@ fn add_stress_forces<const N: usize>(
     Ok(())
 }
 
-/// The law of a macro triangle.
-fn law_of<'a>(problem: &Discretisation, laws: &'a [PlaneLaw], triangle: usize) -> &'a PlaneLaw {
-    &laws[problem.scene.mesh.triangles[triangle].part as usize]
-}
-
 /// Displacement and stress at reference coordinates of a macro triangle.
 fn values_at<const N: usize>(
     problem: &Discretisation,
-    u: &Field<2>,
+    (u, probing): (&Field<2>, Probing),
     triangle: usize,
     at: Point,
-    (law, heat): (&PlaneLaw, Option<&Heat>),
 ) -> Result<[f64; 6], SystemError> {
+    let (law, heat) = problem.material(triangle);
+    let heat = heat.filter(|_| probing == Probing::Displacement);
     let (element, l) = element_at::<N>(problem, triangle, at);
     let nodal = u.on(&element);
     let moved = nodal.iter().zip(shape::<N>(l)).fold(Point::zeros(), |sum, (u, value)| sum + value * u);
-    let s = heated_stress(&element.x, &nodal, l, law, heat)?;
+    let s = heated_stress(&element.x, &nodal, l, &law, heat)?;
     Ok([moved.x, moved.y, s[0], s[1], s[2], s[3]])
 }
 

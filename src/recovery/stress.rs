@@ -1,7 +1,7 @@
 //! Stress at the nodes.
 
 use crate::discretisation::{Discretisation, EvenTriangle, Field, SystemError, agreed};
-use crate::element::{Heat, PlaneLaw, by_order, corner_slopes, nodal_stresses, straight_stresses};
+use crate::element::{PlaneLaw, by_order, corner_slopes, nodal_stresses, straight_stresses};
 use crate::mesh::{MacroMesh, lattice};
 use crate::petsc::Session;
 
@@ -46,34 +46,26 @@ fn stress_of_parts(
     is_in: impl Fn(u32) -> bool,
     session: &Session,
 ) -> Result<Field<4>, SystemError> {
-    let (mesh, laws) = (&problem.scene.mesh, problem.scene.laws());
     // Stress times area, and area.
     let mut sums = Field::<5>::zeros(&problem.scene, problem.finest(), session);
     let mut own = problem.scene.partition.triangles_of(session.rank()).iter();
     let added = own.try_for_each(|&triangle| {
-        let part = mesh.triangles[triangle as usize].part;
-        let material = (&laws[part as usize], problem.scene.heat(part as usize));
-        if !is_in(part) {
+        if !is_in(problem.scene.mesh.triangles[triangle as usize].part) {
             return Ok(());
         }
-        by_order!(problem.finest().numbering.level.order, add(problem, u, triangle as usize, material, &mut sums))
+        by_order!(problem.finest().numbering.level.order, add(problem, u, triangle as usize, &mut sums))
     });
     agreed(session, added)?;
     Ok(sums.sum(session).map(|[xx, yy, xy, zz, area]| [xx, yy, xy, zz].map(|sum| sum / area)))
 }
 
-fn add<const N: usize>(
-    problem: &Discretisation,
-    u: &Field<2>,
-    triangle: usize,
-    (law, heat): (&PlaneLaw, Option<&Heat>),
-    sums: &mut Field<5>,
-) -> Result<(), SystemError> {
+fn add<const N: usize>(problem: &Discretisation, u: &Field<2>, triangle: usize, sums: &mut Field<5>) -> Result<(), SystemError> {
+    let (law, heat) = problem.material(triangle);
     if let Some(even) = problem.even_triangle::<N>(triangle, u).filter(|_| heat.is_none()) {
-        return add_even(problem, triangle, law, &even, sums);
+        return add_even(problem, triangle, &law, &even, sums);
     }
     problem.each_element::<N, _>(triangle, |element| {
-        for (&node, (s, area)) in element.nodes.iter().zip(nodal_stresses(&element.x, &u.on(element), law, heat)?) {
+        for (&node, (s, area)) in element.nodes.iter().zip(nodal_stresses(&element.x, &u.on(element), &law, heat)?) {
             let sum = sums.at_mut(node);
             for k in 0..4 {
                 sum[k] += area * s[k];

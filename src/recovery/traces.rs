@@ -2,7 +2,7 @@
 
 use crate::contact::{Distance, EdgeOverlap, edge_overlaps, trace};
 use crate::discretisation::{Contact, ContactPressure, Discretisation, Field, SystemError, agreed};
-use crate::element::{Heat, PlaneLaw, by_order, heated_stress};
+use crate::element::{by_order, heated_stress};
 use crate::geometry::{Point, gauss_points};
 use crate::mesh::BoundaryEdge;
 use crate::petsc::Session;
@@ -62,10 +62,10 @@ pub fn trace_points(
     u: &Field<2>,
     session: &Session,
 ) -> Result<Vec<TracePoint>, SystemError> {
-    let (contact, laws) = (pressure.contact, problem.scene.laws());
+    let contact = pressure.contact;
     let own = [0, 1].map(|body| {
         let overlaps = edge_overlaps(&contact.boundary, &contact.edges[body]);
-        BodyTrace { problem, laws: &laws, contact, body, overlaps }
+        BodyTrace { problem, contact, body, overlaps }
     });
     let cuts: Vec<f64> = own.iter().flat_map(|trace| &trace.overlaps).flat_map(|overlap| overlap.range).collect();
     let (parameters, segments) = parameters(contact, &cuts, session);
@@ -83,7 +83,6 @@ pub fn trace_points(
 /// The trace of one body on the edges of this rank.
 struct BodyTrace<'a> {
     problem: &'a Discretisation,
-    laws: &'a [PlaneLaw],
     contact: &'a Contact,
     /// Which body: 1 (0) or 2 (1).
     body: usize,
@@ -118,9 +117,7 @@ impl BodyTrace<'_> {
         let moved = small.nodes.iter().zip(here.values).fold(Point::zeros(), |sum, (node, value)| {
             sum + value * u.point(node.number(&problem.scene.mesh, &problem.finest().numbering))
         });
-        let part = problem.scene.mesh.triangles[small.triangle].part as usize;
-        let material = (&self.laws[part], problem.scene.heat(part));
-        let s = by_order!(problem.finest().numbering.level.order, stress_beside(problem, small, here.fraction, u, material))?;
+        let s = by_order!(problem.finest().numbering.level.order, stress_beside(problem, small, here.fraction, u))?;
         let pressure = s[0] * normal.x * normal.x + s[1] * normal.y * normal.y + 2.0 * s[2] * normal.x * normal.y;
         let x = boundary.point(t);
         let distance = match contact.distance(self.body) {
@@ -184,8 +181,8 @@ fn stress_beside<const N: usize>(
     small: &BoundaryEdge,
     fraction: f64,
     u: &Field<2>,
-    (law, heat): (&PlaneLaw, Option<&Heat>),
 ) -> Result<[f64; 4], SystemError> {
+    let (law, heat) = problem.material(small.triangle);
     let element = problem.element::<N>(small.triangle, small.beside);
-    Ok(heated_stress(&element.x, &u.on(&element), small.barycentric(fraction), law, heat)?)
+    Ok(heated_stress(&element.x, &u.on(&element), small.barycentric(fraction), &law, heat)?)
 }

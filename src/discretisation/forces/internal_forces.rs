@@ -4,7 +4,7 @@ use crate::body::MacroStiffness;
 use crate::discretisation::error::{SystemError, agreed};
 use crate::discretisation::field::Field;
 use crate::discretisation::levels::Discretisation;
-use crate::element::{self, PlaneLaw, by_order, times};
+use crate::element::{self, by_order, times};
 use crate::geometry::Point;
 use crate::mesh::lattice;
 use crate::petsc::Session;
@@ -14,11 +14,10 @@ use crate::petsc::Session;
 /// # Errors
 /// [`SystemError`] from PETSc or an inverted triangle.
 pub fn local_strain_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<f64>, SystemError> {
-    let laws = problem.scene.laws();
     let own = problem.scene.partition.triangles_of(session.rank());
     let energy = |&triangle: &u32| {
         let mut energy = 0.0;
-        each_force(problem, &laws, u, triangle as usize, |_, force, u| energy += 0.5 * force.dot(&u))?;
+        each_force(problem, u, triangle as usize, |_, force, u| energy += 0.5 * force.dot(&u))?;
         // Rounding may leave a rigid motion a little less than nothing.
         Ok(energy.max(0.0))
     };
@@ -31,12 +30,11 @@ pub fn local_strain_energy(problem: &Discretisation, u: &Field<2>, session: &Ses
 /// [`SystemError`] from PETSc or an inverted triangle.
 pub fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<(Vec<f64>, Field<2>), SystemError> {
     let scene = &problem.scene;
-    let laws = scene.laws();
     let mut strain = vec![0.0; scene.mesh.parts.len()];
     let mut forces = Field::<2>::zeros(&problem.scene, problem.finest(), session);
     let added = scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
         let part = scene.mesh.triangles[triangle as usize].part as usize;
-        each_force(problem, &laws, u, triangle as usize, |node, force, u| {
+        each_force(problem, u, triangle as usize, |node, force, u| {
             strain[part] += 0.5 * force.dot(&u);
             forces.add_at(node, force);
         })
@@ -48,18 +46,16 @@ pub fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session
 /// Internal forces of one macro triangle: number, force and displacement of each of its nodes.
 fn each_force(
     problem: &Discretisation,
-    laws: &[PlaneLaw],
     u: &Field<2>,
     triangle: usize,
     mut take: impl FnMut(usize, Point, Point),
 ) -> Result<(), SystemError> {
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let n = numbering.level.intervals;
-    let law = &laws[mesh.triangles[triangle].part as usize];
     if numbering.level.is_one_triangle() {
-        return by_order!(numbering.level.order, each_force_of_one(problem, law, u, triangle, take));
+        return by_order!(numbering.level.order, each_force_of_one(problem, u, triangle, take));
     }
-    let stiffness = MacroStiffness::new(mesh, triangle, numbering.level, law)?;
+    let stiffness = MacroStiffness::new(mesh, triangle, numbering.level, &problem.material(triangle).0)?;
     let numbers = numbering.triangle(mesh, triangle);
     let local = problem.on_lattice(triangle, u);
     for (at, (i, j)) in lattice::nodes(n).enumerate() {
@@ -72,15 +68,14 @@ fn each_force(
 /// Internal forces of a macro triangle that is a single triangle: number, force and displacement of each of its nodes.
 fn each_force_of_one<const N: usize>(
     problem: &Discretisation,
-    law: &PlaneLaw,
     u: &Field<2>,
     triangle: usize,
     mut take: impl FnMut(usize, Point, Point),
 ) -> Result<(), SystemError> {
-    let is_straight = !problem.scene.mesh.is_curved(triangle);
+    let ((law, _), is_straight) = (problem.material(triangle), !problem.scene.mesh.is_curved(triangle));
     problem.each_element::<N, _>(triangle, |element| {
         let local = u.on(element);
-        let forces = element::internal_forces(&element.x, &local, law, is_straight)?;
+        let forces = element::internal_forces(&element.x, &local, &law, is_straight)?;
         (0..N).for_each(|a| take(element.nodes[a], forces[a], local[a]));
         Ok(())
     })
