@@ -1,7 +1,7 @@
 //! A scene solved.
 
 use crate::accuracy::Adaptation;
-use crate::discretisation::{BY_ROUNDING, Discretisation, Solution};
+use crate::discretisation::{BY_ROUNDING, Discretisation, Solution, adrift};
 use crate::petsc::Session;
 use crate::procedure::boundary::BoundaryStep;
 use crate::procedure::coarse_solution::CoarseSolution;
@@ -71,6 +71,14 @@ impl Solved {
             before: None,
             adaptation: None,
         }
+    }
+
+    /// Words for the motion that is free where some contacts, by their names, hold nothing; none without such contacts. **Collective**
+    pub fn adrift_without(&self, names: &[String], session: &Session) -> Option<String> {
+        let (contacts, mut active) = (&self.problem.contacts, self.solution.active.clone());
+        let loose = contacts.iter().filter(|contact| names.contains(&contact.pair.name));
+        loose.for_each(|contact| active[contact.range()].fill(false));
+        if names.is_empty() { None } else { adrift(&self.problem, &active, session) }
     }
 
     /// Displacement unknowns and Krylov iterations of all solves on each refinement of the last mesh, the coarsest first.

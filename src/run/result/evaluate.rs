@@ -1,7 +1,6 @@
 //! A solution made into a summary, with its files, its status and its reason.
 
 use super::figures::Shown;
-use crate::discretisation::adrift;
 use crate::output::summary::{ContactSummary, EstimateSummary, Status, Summary, listed};
 use crate::output::{CONTACTS, RunError, contacts_table, write_text};
 use crate::procedure::{Solved, Work};
@@ -102,7 +101,7 @@ impl Run<'_> {
             let missed = (self.case.exact.must_hold && !missed.is_empty())
                 .then(|| format!("expected values are missed ({})", missed.join("; ")));
             let stopped = missed.or_else(|| no_result(summary, self.case)).map(|words| (Status::NotConverged, words));
-            let loose = self.adrift(summary, solved);
+            let loose = adrift(self, summary, solved);
             let coarse =
                 || Some((Status::Unresolved, loose.or_else(|| unresolved(summary, self.case, solved.ending.still_moved()))?));
             (status, reason) = stopped.or_else(coarse).unwrap_or((status, reason));
@@ -124,17 +123,11 @@ impl Run<'_> {
     }
 }
 
-impl Run<'_> {
-    /// Words for a body that is held by contacts alone on which rounding presses, and that nothing drives. **Collective**
-    fn adrift(&self, summary: &Summary, solved: &Solved) -> Option<String> {
-        let (problem, mut active) = (&solved.problem, solved.solution.active.clone());
-        let names = pressed_by_rounding(summary, self.case);
-        let loose = problem.contacts.iter().filter(|contact| names.contains(&contact.pair.name));
-        loose.for_each(|contact| active[contact.range()].fill(false));
-        let name = names.first()?;
-        let words = adrift(problem, &active, self.session)?;
-        Some(format!("contact {name}: what presses is rounding, so that where its bodies lie is not told: {words}"))
-    }
+/// Words for a body that is held by contacts alone on which rounding presses, and that nothing drives. **Collective**
+fn adrift(run: &Run, summary: &Summary, solved: &Solved) -> Option<String> {
+    let names = pressed_by_rounding(summary, run.case);
+    let words = solved.adrift_without(&names, run.session)?;
+    Some(format!("contact {}: what presses is rounding, so that where its bodies lie is not told: {words}", names.first()?))
 }
 
 /// How the procedure ended: the status, and its words.
