@@ -46,42 +46,160 @@ fn run(folder: &std::path::Path, angle: f64, push: f64, configuration: &str, ran
         .set("contact.seam.configuration", configuration)
 }
 
-/// A rocker of radius 4 on a stiff flat, under 20 and pushed onto a wall by .4, which by balance is the force of the wall, since the flat
-/// stays level. The rocker turns as it rolls, and normals half-way between the undeformed sides turn by half of that: the wall has
-/// an eighth too little, and that is told, with what helps.
-#[test]
-fn a_small_force_beside_one_that_turns_is_told() {
-    let folder = tempfile::tempdir().expect("a temporary folder");
+/// A stiff flat, and a rocker of radius 4 on it.
+fn flat_and_rocker() -> Vec<(&'static str, Block, [&'static str; 4])> {
     let flat = grid(12, 4, 0, |u, v| [4.0 * u - 2.0, v - 1.0]);
     let rocker = grid(24, 10, 0, |u, v| {
         let x = 3.0 * u - 1.5;
         [x, (1.0 - v) * (4.0 - (16.0 - x * x).sqrt()) + 2.0 * v]
     });
-    let bodies = vec![("flat", flat, ["base", "", "flat.top", ""]), ("rocker", rocker, ["arc", "side", "rocker.top", ""])];
-    let case = r#"
+    vec![("flat", flat, ["base", "", "flat.top", ""]), ("rocker", rocker, ["arc", "side", "rocker.top", ""])]
+}
+
+/// The rocker under 20, off its centre as it will, and pushed onto a wall by .4, which by balance is the force of the wall, since the flat
+/// stays level.
+const ROCKER: &str = r#"
 mesh = { file = "mesh.msh", refine = 2 }
 body.flat = { young = 1e6, poisson = 0.3 }
 body.rocker = { young = 1e4, poisson = 0.3 }
 support.base = { on = "base", ux = 0.0, uy = 0.0 }
-rigid.wall = { x = "1.5 + t^2/40", y = "1 + t", t = [-0.6, 0.6], ux = 0.0, uy = 0.0, angle = 0.0 }
 load.top = { on = "rocker.top", traction = ["0.4/3", "-20/3"] }
 contact.foot = { between = ["flat.top", "arc"] }
-contact.wall = { between = ["side", "rigid.wall"] }
 accuracy = { force = 1e-2 }
 "#;
-    let file = write_scene(folder.path(), &Mesh { bodies }.text(), case);
+
+const WALL: &str = r#"
+rigid.wall = { x = "1.5 + t^2/40", y = "1 + t", t = [-0.6, 0.6], ux = 0.0, uy = 0.0, angle = 0.0 }
+contact.wall = { between = ["side", "rigid.wall"] }
+"#;
+
+/// A force that should be `truth` is that, or is not trusted and says by how much it is off, to this share of it.
+fn assert_told(ended: &Ended, contact: &str, truth: f64, share: f64, is_off: bool) {
+    let [force, error] = ["force", "direction_error"].map(|key| ended.number(&format!("/contact/{contact}/{key}")));
+    let off = truth - force;
+    assert_eq!(off.abs() > 0.01 * truth, is_off, "{force}: {}", ended.said());
+    assert!((error * force - off.abs()).abs() < share * truth, "{error} of {force} instead of {truth}");
+    assert_eq!(ended.value(&format!("/contact/{contact}/trust_force")), !is_off, "{}", ended.said());
+    assert_eq!(ended.errors.contains("forces on them with them"), is_off, "{}", ended.errors);
+}
+
+/// The rocker turns as it rolls, and normals half-way between the undeformed sides turn by half of that: the wall has an eighth too little,
+/// and that is told, with what helps.
+#[test]
+fn a_small_force_beside_one_that_turns_is_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let case = format!("{ROCKER}{WALL}");
+    let file = write_scene(folder.path(), &Mesh { bodies: flat_and_rocker() }.text(), &case);
     for (ranks, curve, configuration) in
         [(1, "fit", "reference"), (2, "fit", "reference"), (1, "fit", "deformed"), (1, "flat.top", "reference")]
     {
         let run = Run::file(&file).ranks(ranks).set("contact.foot.curve", curve).set("contact.foot.configuration", configuration);
-        let ended = run.converged();
-        let [force, error] = ["force", "direction_error"].map(|key| ended.number(&format!("/contact/wall/{key}")));
-        let is_off = curve == "fit" && configuration == "reference";
-        let off = 0.4 - force;
-        assert_eq!(off.abs() > 1e-3, is_off, "{force}: {}", ended.said());
-        assert!((error * force - off).abs() < 1e-3, "{error} of {force}");
-        assert_eq!(ended.value("/contact/wall/trust_force"), !is_off, "{}", ended.said());
-        assert_eq!(ended.errors.contains("forces on them turn"), is_off, "{}", ended.errors);
+        assert_told(&run.converged(), "wall", 0.4, 2e-3, curve == "fit" && configuration == "reference");
+    }
+}
+
+/// Springs that are far softer than the bodies hold nothing, and take nothing up.
+#[test]
+fn soft_springs_do_not_hide_that_a_force_turns() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let springs = "support.soft = { on = \"rocker.top\", stiffness = { x = 1e-3, y = 1e-3 } }\n";
+    let case = format!("{ROCKER}{WALL}{springs}");
+    let file = write_scene(folder.path(), &Mesh { bodies: flat_and_rocker() }.text(), &case);
+    let ended = Run::file(&file).converged();
+    assert_told(&ended, "wall", 0.4, 2e-3, true);
+    assert!(!ended.errors.contains("the bodies turn:"), "the force is set by balance: {}", ended.errors);
+}
+
+/// A free block between rocker and wall hands on what it has from the rocker: its force on the wall is off by as much.
+#[test]
+fn a_body_hands_on_what_is_off_to_the_next() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let spacer = grid(8, 8, 0, |u, v| {
+        let (y, left) = (0.4 + 1.2 * v, 1.5 + 0.1 * (1.2 * v - 0.6).powi(2));
+        [left + u * (2.5 - left), y]
+    });
+    let mut bodies = flat_and_rocker();
+    bodies.push(("spacer", spacer, ["", "sp.right", "", "sp.left"]));
+    let case = format!(
+        "{ROCKER}{}",
+        r#"
+body.spacer = { young = 1e4, poisson = 0.3 }
+support.spacer = { body = "spacer", mean = true, uy = 0.0, angle = 0.0 }
+rigid.wall = { x = "2.5 + (t - 1)^2/40", y = "t", t = [0.4, 1.6], ux = 0.0, uy = 0.0, angle = 0.0 }
+contact.middle = { between = ["side", "sp.left"] }
+contact.wall = { between = ["sp.right", "rigid.wall"] }
+"#
+    );
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), &case);
+    for ranks in [1, 2] {
+        let ended = Run::file(&file).ranks(ranks).converged();
+        ["middle", "wall"].iter().for_each(|contact| assert_told(&ended, contact, 0.4, 2e-3, true));
+    }
+}
+
+/// A round block on a round cap of the same radius that stands off by g under 20: the line between both centres is tilted by g/2. In the
+/// contact, wider than g, the deformed sides lie flat on each other.
+#[test]
+fn sides_that_are_flattened_against_each_other_turn_their_force_too() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let turn = std::f64::consts::PI;
+    let cap = grid(24, 6, 0, move |u, v| {
+        let (r, angle) = (0.4 + 0.6 * v, turn * (0.85 - 0.7 * u));
+        [r * angle.cos(), r * angle.sin() - 1.0]
+    });
+    let block = grid(16, 8, 0, |u, v| {
+        let x = 1.4 * u - 0.7;
+        [x, (1.0 - v) * (1.0 - (1.0 - x * x).sqrt()) + 1.2 * v]
+    });
+    let bodies = vec![("cap", cap, ["bore", "", "cap.top", ""]), ("block", block, ["arc", "side", "block.top", ""])];
+    let case = r#"
+mesh = { file = "mesh.msh", refine = 1 }
+body.cap = { young = 1e4, poisson = 0.3 }
+body.block = { young = 1e4, poisson = 0.3 }
+support.bore = { on = "bore", ux = 0.0, uy = 0.0 }
+support.level = { body = "block", mean = true, angle = 0.0 }
+load.top = { on = "block.top", traction = ["0.4/1.4", "-20/1.4"] }
+rigid.wall = { x = "0.71 + t^2/20", y = "0.8 + t", t = [-0.3, 0.3], ux = 0.0, uy = 0.0, angle = 0.0 }
+contact.foot = { between = ["cap.top", "arc"] }
+contact.wall = { between = ["side", "rigid.wall"] }
+accuracy = { force = 2e-3 }
+"#;
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), case);
+    for (ranks, configuration) in [(1, "reference"), (2, "deformed")] {
+        let ended = Run::file(&file).ranks(ranks).set("contact.foot.configuration", configuration).converged();
+        // The block goes as far as the wall lets it, less what it is strained.
+        let truth = 0.4 + 20.0 * 0.005;
+        assert_told(&ended, "wall", truth, 0.03, configuration == "reference");
+    }
+}
+
+/// A lever on a shaft, which a flat presses by 20 through the shaft wherever the lever has turned to: the stop has what the arm is pushed
+/// by. On undeformed bodies the force moves off the shaft, on deformed ones its moment is about where the rim was.
+#[test]
+fn a_moment_that_a_turn_makes_of_a_force_is_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let flat = grid(24, 8, 0, |u, v| [1.2 * u - 0.6, 0.5 * v - 1.5]);
+    let turn = std::f64::consts::PI;
+    let lever = sector(40, 0, [0.4, 1.0], [turn, 2.0 * turn]);
+    let bodies = vec![("flat", flat, ["base", "", "flat.top", ""]), ("lever", lever, ["hole", "left", "rim", "right"])];
+    let case = r#"
+mesh = { file = "mesh.msh", refine = 1 }
+body.flat = { young = 1e4, poisson = 0.3 }
+body.lever = { young = 1e4, poisson = 0.3 }
+geometry.rim = { curves = ["rim"], circle = { centre = [0, 0], radius = 1 } }
+geometry.hole = { curves = ["hole"], circle = { centre = [0, 0], radius = 0.4 } }
+support.shaft = { on = "hole", normal = 0.0 }
+load.base = { on = "base", rigid = true, force = [0.0, 20.0], ux = 0.0, angle = 0.0 }
+load.arm = { on = "right", traction = [0.0, "-0.4/0.6"] }
+rigid.stop = { x = "t", y = "0.0028 + (t + 0.7)^2/4", t = [-1.1, -0.3], ux = 0.0, uy = 0.0, angle = 0.0 }
+contact.foot = { between = ["flat.top", "rim"], curve = "fit" }
+contact.stop = { between = ["left", "rigid.stop"] }
+accuracy = { force = 2e-3 }
+"#;
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), case);
+    for (ranks, curve, configuration) in [(1, "fit", "reference"), (2, "fit", "deformed"), (1, "rim", "reference")] {
+        let run = Run::file(&file).ranks(ranks).set("contact.foot.curve", curve).set("contact.foot.configuration", configuration);
+        assert_told(&run.converged(), "stop", 0.4, 0.02, curve == "fit");
     }
 }
 

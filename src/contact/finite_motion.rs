@@ -5,8 +5,8 @@ use super::contact_boundary::ContactBoundary;
 use super::multiplier::Multipliers;
 use super::pair::Configuration;
 use super::smooth_side::SmoothSide;
-use crate::geometry::{Curve, Point, gauss_points, turn_right};
-use nalgebra::{Matrix2, Rotation2};
+use crate::geometry::{Point, gauss_points, turn_right};
+use nalgebra::Rotation2;
 
 /// Gauss points of a segment.
 const POINTS: usize = 2;
@@ -43,11 +43,6 @@ pub struct FiniteMotion {
     pub turning: GapError,
     /// `∫λ ds` (force per thickness).
     pub force: f64,
-    /// `∫λ n nᵀ ds` by the normals n of Γ_C (force per thickness): the directions in which it presses.
-    pub normals: Matrix2<f64>,
-    /// `∫λ (n' - n) ds` by the normals n' that the displaced sides have in common (force per thickness): zero on straight lines and on
-    /// boundaries that follow the deformed bodies.
-    pub turned: Point,
     /// Length of the segments that press.
     pub length: f64,
 }
@@ -73,23 +68,7 @@ pub fn finite_motion(
     multipliers: &Multipliers,
     lambda: &[f64],
 ) -> FiniteMotion {
-    let mut length = 0.0;
-    // Parameter, weight and arc length of the points that press.
-    let mut points: Vec<[f64; 3]> = Vec::new();
-    for (k, ends) in boundary.knots().windows(2).enumerate() {
-        let before = points.len();
-        for (z, weight) in gauss_points(POINTS) {
-            let pressure = multipliers.value(lambda, k, *z);
-            let t = ends[0] + z * (ends[1] - ends[0]);
-            if pressure > 0.0 {
-                points.push([t, pressure * weight * boundary.segment_length(k) * boundary.width(t), boundary.arc(t)]);
-            }
-        }
-        length += if points.len() > before { boundary.segment_length(k) } else { 0.0 };
-    }
-    if let Some(turn) = boundary.turn() {
-        count_from_a_gap(&mut points, turn);
-    }
+    let (points, length) = pressed_places(boundary, multipliers, lambda);
     let force: f64 = points.iter().map(|[_, weight, _]| weight).sum();
     if force == 0.0 {
         return FiniteMotion::default();
@@ -108,21 +87,33 @@ pub fn finite_motion(
         Some(PressedPoint { weight, arc, slip, moved, shifted, grown: growth[0] - growth[1] })
     };
     let pressed: Vec<PressedPoint> = points.iter().filter_map(pressed_point).collect();
-    let normals = points.iter().map(|&[t, weight, _]| (t, weight, boundary.normal(t)));
-    let pressing = sides.and_then(|sides| Some((sides, common_normal_shares(sides, boundary, &points)?)));
-    let turned = |(t, weight, normal): (f64, f64, Point)| {
-        let (sides, shares) = pressing?;
-        Some(weight * (displaced_normal(sides, shares, boundary.point(t), normal)? - normal))
-    };
     FiniteMotion {
         slip: mean(&pressed, |point| point.slip * point.slip).sqrt(),
         whole: gap_error(&pressed, force, |point| point.moved),
         turning: gap_error(&pressed, force, |point| point.moved - point.shifted),
         force,
-        normals: normals.clone().map(|(_, weight, normal)| weight * normal * normal.transpose()).sum(),
-        turned: normals.filter_map(turned).sum(),
         length,
     }
+}
+
+/// Parameter, weight and arc length of the points that press, and the length of the segments that do.
+pub fn pressed_places(boundary: &ContactBoundary, multipliers: &Multipliers, lambda: &[f64]) -> (Vec<[f64; 3]>, f64) {
+    let (mut points, mut length): (Vec<[f64; 3]>, f64) = (Vec::new(), 0.0);
+    for (k, ends) in boundary.knots().windows(2).enumerate() {
+        let before = points.len();
+        for (z, weight) in gauss_points(POINTS) {
+            let pressure = multipliers.value(lambda, k, *z);
+            let t = ends[0] + z * (ends[1] - ends[0]);
+            if pressure > 0.0 {
+                points.push([t, pressure * weight * boundary.segment_length(k) * boundary.width(t), boundary.arc(t)]);
+            }
+        }
+        length += if points.len() > before { boundary.segment_length(k) } else { 0.0 };
+    }
+    if let Some(turn) = boundary.turn() {
+        count_from_a_gap(&mut points, turn);
+    }
+    (points, length)
 }
 
 /// Counts the arc lengths of points on a closed boundary from the widest gap between them, so that what presses hangs together.
@@ -151,7 +142,7 @@ fn gap_error(pressed: &[PressedPoint], force: f64, gap: impl Fn(&PressedPoint) -
 }
 
 /// Angle by which a side is turned where it presses, its mean weighted with λ (radians).
-fn mean_tilt(side: &SmoothSide, boundary: &ContactBoundary, points: &[[f64; 3]]) -> f64 {
+pub fn mean_tilt(side: &SmoothSide, boundary: &ContactBoundary, points: &[[f64; 3]]) -> f64 {
     let (mut sum, mut total) = (0.0, 0.0);
     for &[t, weight, _] in points {
         let foot = side.nearest(boundary.point(t), Configuration::Reference);
@@ -163,38 +154,12 @@ fn mean_tilt(side: &SmoothSide, boundary: &ContactBoundary, points: &[[f64; 3]])
 }
 
 /// Parameters of the places of both sides that correspond to a point of Γ_C.
-fn feet(sides: [&SmoothSide; 2], x: Point, normal: Point) -> Option<[f64; 2]> {
+pub fn feet(sides: [&SmoothSide; 2], x: Point, normal: Point) -> Option<[f64; 2]> {
     let foot = |side: &SmoothSide| {
         let curve = side.curve(Configuration::Reference);
         curve.hit_from(curve.nearest(x - side.shift), x - side.shift, normal)
     };
     Some([foot(sides[0])?, foot(sides[1])?])
-}
-
-/// Shares of both sides' normals in the one that they have in common where they press. Sides that are tilted to each other press elsewhere,
-/// until they are parallel: a flat one has its normal there, too. Of two round ones it turns as far as each is curved, and of such as fit
-/// each other by half. Nothing without points.
-fn common_normal_shares(sides: [&SmoothSide; 2], boundary: &ContactBoundary, points: &[[f64; 3]]) -> Option<[f64; 2]> {
-    let [first, last] = [points.first()?, points.last()?].map(|&[t, ..]| feet(sides, boundary.point(t), boundary.normal(t)));
-    let (first, last) = (first?, last?);
-    let bent = [0, 1].map(|k| {
-        let [a, b] = [first[k], last[k]].map(|foot| sides[k].curve(Configuration::Reference).tangent(foot));
-        a.perp(&b).atan2(a.dot(&b)).abs()
-    });
-    let both = bent[0] + bent[1];
-    Some(if both > 0.0 { [bent[1] / both, bent[0] / both] } else { [0.5; 2] })
-}
-
-/// Normal that the displaced sides have in common, by these shares, where the places that correspond to a point of Γ_C have moved to.
-fn displaced_normal(sides: [&SmoothSide; 2], shares: [f64; 2], x: Point, normal: Point) -> Option<Point> {
-    let (feet, curves) = (feet(sides, x, normal)?, sides.map(|side| side.curve(Configuration::Deformed)));
-    let place = 0.5 * (curves[0].point(feet[0]) + curves[1].point(feet[1]));
-    let angle = |curve: &Curve| {
-        let own = turn_right(curve.tangent(curve.nearest(place)));
-        let facing = own * own.dot(&normal).signum();
-        normal.perp(&facing).atan2(normal.dot(&facing))
-    };
-    Some(Rotation2::new(shares[0] * angle(curves[0]) + shares[1] * angle(curves[1])) * normal)
 }
 
 /// Slip, and gap of the displaced bodies less the linear one, at a point of Γ_C that moves with the bodies' mean. Each
@@ -228,6 +193,7 @@ mod tests {
     use super::*;
     use crate::contact::samples;
     use crate::element::Order;
+    use crate::geometry::Curve;
     use crate::mesh::samples::two_blocks;
     use crate::mesh::{EdgeNode, Level, Numbering, Partition};
     use std::rc::Rc;

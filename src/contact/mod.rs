@@ -40,6 +40,7 @@ mod sets;
 mod side;
 mod smooth_side;
 mod trace;
+mod turned_force;
 
 pub use contact_boundary::ContactBoundary;
 pub use coupling::{Distance, Entry, Integrals, declared_gap, integrate};
@@ -61,3 +62,4 @@ pub use sets::{ActiveSet, SetChange, SetSolution};
 pub use side::Side;
 pub use smooth_side::{Displacement, SmoothSide};
 pub use trace::{EdgeOverlap, Trace, edge_overlaps, trace};
+pub use turned_force::{TurnedForce, turned_force, wrench};

@@ -35,6 +35,8 @@ pub struct Balance {
     pub springs: Option<f64>,
     /// Force of each support on the bodies (per thickness), those of elastic ones and then those of mean motions after the others.
     pub reactions: Vec<Point>,
+    /// For each body `Σ u × r` over the reactions of curved guides: these do not go with the body (per thickness).
+    pub guided: Vec<f64>,
     /// Moment of each hold of a mean motion about the middle of its body (per thickness).
     pub mean_moments: Vec<f64>,
     /// Force of each rigid set on the bodies, and its moment about the reference point (per thickness).
@@ -69,7 +71,7 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
     let of_parts = problem.scene.mesh.parts.iter().zip(&strain_of_parts);
     of_parts.for_each(|(part, energy)| strain[part.body as usize] += energy);
     let springs = SpringForces::new(problem, u, session);
-    let NodeSums { work, bodies, mut reactions, rigid } =
+    let NodeSums { work, bodies, mut reactions, rigid, guided } =
         NodeSums::new(problem, solution, u, [&internal, &springs.nodes], session)?;
     reactions.extend(springs.reactions);
     reactions.extend(problem.mean_forces.iter().map(|&[x, y, _]| Point::new(x, y)));
@@ -104,6 +106,7 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
             work.stationary(total, lambda_gap, gaps > ROUNDING * largest)
         },
         bodies: body_balance(plane, contacts, &forces, &bodies),
+        guided,
         strain,
         strain_of_parts,
         reactions,

@@ -21,20 +21,23 @@ pub struct Deformation {
     pub rotation: f64,
     /// Mean rotation of a macro triangle, the largest by magnitude (radians): both halves of a strip that is bent turn, its mean does not.
     pub turned: f64,
-    /// `∫(ω² - ε²)/2 tr σ` where the rotation ω is larger than the strain ε: the work of the stresses on the growth that a
+    /// `∫(ω² - ε²) tr σ` where the rotation ω is larger than the strain ε: twice the work of the stresses on the growth that a
     /// linear theory gives to what turns (energy per thickness).
     pub growth: f64,
+    /// `-∫ω tr σ`: moment that all forces on the body have gained as it has turned, if they act on what it is made of (per thickness).
+    pub moment: f64,
     /// Middle of the body.
     pub middle: Point,
     /// Largest distance of a vertex from there (length).
     pub radius: f64,
 }
 
-/// Integrals over a macro triangle: of the larger principal strain, of 1, of the rotation, of the work on its growth.
-type TriangleIntegrals = [f64; 4];
+/// Integrals over a macro triangle: of the larger principal strain, of 1, of the rotation, of the work on its growth, of the moment that its
+/// forces gain.
+type TriangleIntegrals = [f64; 5];
 
-/// Integrals over a body: of 1, of the rotation, of the work on its growth, of the place.
-type BodyIntegrals = [f64; 5];
+/// Integrals over a body: of 1, of the rotation, of the work on its growth, of the moment that its forces gain, of the place.
+type BodyIntegrals = [f64; 6];
 
 /// Strain, rotation and growth of each body, and the rotation of each macro triangle beside contacts, the same on all ranks. Strain and
 /// rotation of a macro triangle are means over it, and where triangles are hardly refined over it and its neighbours. So a corner where
@@ -119,16 +122,16 @@ fn add_largest(problem: &Discretisation, sums: &[[f64; 3]], found: &mut [Deforma
 }
 
 /// Adds the integrals over a macro triangle with this centroid to those of its body.
-fn add_to_body(sum: &mut BodyIntegrals, [_, area, rotation, growth]: &TriangleIntegrals, centroid: Point) {
-    let values = [*area, *rotation, *growth, centroid.x * area, centroid.y * area];
+fn add_to_body(sum: &mut BodyIntegrals, [_, area, rotation, growth, moment]: &TriangleIntegrals, centroid: Point) {
+    let values = [*area, *rotation, *growth, *moment, centroid.x * area, centroid.y * area];
     sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
 }
 
 /// What is known of each body as a whole; what [`add_largest`] adds is left at zero.
 fn whole_bodies(mesh: &MacroMesh, totals: &[BodyIntegrals]) -> Vec<Deformation> {
-    let whole = |&[area, rotation, growth, x, y]: &BodyIntegrals| {
+    let whole = |&[area, rotation, growth, moment, x, y]: &BodyIntegrals| {
         let middle = Point::new(x, y) / area;
-        Deformation { strain: 0.0, place: middle, rotation: rotation / area, turned: 0.0, growth, middle, radius: 0.0 }
+        Deformation { strain: 0.0, place: middle, rotation: rotation / area, turned: 0.0, growth, moment, middle, radius: 0.0 }
     };
     let mut found: Vec<Deformation> = totals.iter().map(whole).collect();
     if mesh.plane == Plane::Revolution {
@@ -184,14 +187,14 @@ fn integrals<const N: usize>(problem: &Discretisation, u: &Field<2>, triangle: u
     Ok(sums)
 }
 
-/// Adds an element by its strain and its stress in the middle, and the width there.
+/// Adds an element by its strain and its stress in the middle, and the width there; `area` is twice its area.
 #[inline]
 fn add_element(sums: &mut TriangleIntegrals, area: f64, found: &Strain, [xx, yy, ..]: [f64; 4], width: f64) {
     let gradient = &found.gradient;
     let rotation = 0.5 * (gradient[(1, 0)] - gradient[(0, 1)]);
     let size = principal(gradient).max(found.hoop.abs());
     let growth = 0.5 * (rotation * rotation - size * size).max(0.0) * width;
-    let values = [size, 1.0, rotation, growth * (xx + yy)];
+    let values = [size, 1.0, rotation, growth * (xx + yy), -0.5 * rotation * (xx + yy) * width];
     sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += area * value);
 }
 
@@ -219,9 +222,9 @@ mod tests {
         let mesh = crate::mesh::samples::two_blocks();
         let body = mesh.bodies.iter().position(|name| name == "lower").expect("a body");
         let own: Vec<usize> = (0..mesh.triangles.len()).filter(|&k| mesh.triangles[k].body as usize == body).collect();
-        let mut totals = vec![[9.0; 5]; mesh.bodies.len()];
+        let mut totals = vec![[9.0; 6]; mesh.bodies.len()];
         totals[body] = BodyIntegrals::default();
-        for (triangle, integrals) in own.iter().zip([[0.0, 1.0, 0.02, 0.3], [0.0, 3.0, 0.18, 0.5]]) {
+        for (triangle, integrals) in own.iter().zip([[0.0, 1.0, 0.02, 0.3, 0.1], [0.0, 3.0, 0.18, 0.5, 0.2]]) {
             add_to_body(&mut totals[body], &integrals, centroid(&mesh, &mesh.triangles[*triangle]));
         }
         let found = &whole_bodies(&mesh, &totals)[body];

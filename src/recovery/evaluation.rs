@@ -56,7 +56,7 @@ impl<'a> Evaluation<'a> {
         session.max(&mut moved);
         let balance = balance(problem, solution, &u, session)?;
         let (deformations, turns) = deformations(problem, &u, session)?;
-        let motions = motion_errors(problem, solution, &balance.strain, (&deformations, &turns), session);
+        let motions = motion_errors(problem, solution, &balance, (&deformations, &turns), session);
         let forces: Vec<f64> = balance.contacts.iter().map(|contact| contact.force).collect();
         let penetrations = penetrations(problem, solution, &forces, session);
         Ok(Self {

@@ -17,13 +17,14 @@
 //! round body that turns about its centre does both, and the one undoes the other. Where equilibrium sets the force its error is
 //! zero. Where both ends of contact lie inside the boundaries, a tilt of the gap moves the contact and does not change λ.
 
+use super::balance::Balance;
 use super::deformation::Deformation;
 use super::direction_error::direction_errors;
 use super::slant::slant;
 use super::traces::TracePoint;
 use crate::body::RigidSet;
-use crate::contact::{Configuration, FiniteMotion, GapError, SmoothSide, Turn, finite_motion};
-use crate::discretisation::{BoundaryMotion, Contact, ContactPressure, Discretisation, Solution, needed_contacts};
+use crate::contact::{Configuration, FiniteMotion, GapError, SmoothSide, Turn, TurnedForce, finite_motion, turned_force};
+use crate::discretisation::{BoundaryMotion, Contact, ContactPressure, Discretisation, Freedom, Solution, needed_contacts};
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, MacroEdge, MacroMesh};
 use crate::petsc::Session;
@@ -60,43 +61,50 @@ pub struct MotionError {
     pub direction_error: f64,
 }
 
-/// For each contact what motions spoil; nothing where no body is strained. `energy` is the strain energy of each body, `turns` the
-/// rotation of each macro triangle (radians). **Collective**
+/// For each contact what motions spoil; nothing where no body is strained. `turns` is the rotation of each macro triangle (radians).
+/// **Collective**
 pub fn motion_errors(
     problem: &Discretisation,
     solution: &Solution,
-    energy: &[f64],
+    balance: &Balance,
     (bodies, turns): (&[Deformation], &[f64]),
     session: &Session,
 ) -> Vec<Option<MotionError>> {
-    let follows = |contact: &Contact| contact.pair.configuration == Configuration::Reference && contact.known.meeting.is_some();
+    let is_reference = |contact: &Contact| contact.pair.configuration == Configuration::Reference;
+    let follows = |contact: &Contact| is_reference(contact) && contact.known.meeting.is_some();
     // What equilibrium sets is right whatever is left out, but the motion of a tool is off by all of that.
     let needed = needed_contacts(problem, &solution.active, session);
     let is_set =
         |(contact, &needed): (&Contact, &bool)| needed && !is_between_tools(problem, contact, &|set| set.free().next().is_some());
     let set: Vec<bool> = problem.contacts.iter().zip(&needed).map(is_set).collect();
+    let freedoms = Freedom::of_bodies(&problem.scene);
+    let beside = |body: usize| problem.contacts.iter().filter(|contact| contact.bodies.contains(&body)).count() > 1;
+    let turns_others =
+        |contact: &Contact| is_reference(contact) && contact.bodies.iter().any(|&body| freedoms[body].is_some() && beside(body));
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let motion = || BoundaryMotion::new(&problem.scene, space, &solution.displacement, session);
-    let motion = problem.contacts.iter().any(follows).then(motion);
+    let motion = problem.contacts.iter().any(|contact| follows(contact) || turns_others(contact)).then(motion);
     let with_sides = |(contact, &is_set): (&Contact, &bool)| {
-        let meeting = contact.known.meeting.as_ref().filter(|_| follows(contact)).zip(motion.as_ref());
-        let sides = meeting.map(|(meeting, motion)| {
-            let displacement = |node: EdgeNode| motion.at(node, mesh, space);
-            let mut sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
-            meeting.begin(&mut sides);
-            sides
-        });
-        let sides = meeting.zip(sides.as_ref()).map(|((meeting, _), sides)| meeting.sides(sides));
-        one(problem, solution, (contact, is_set), energy, (bodies, turns), sides, session)
+        let sides_of = |motion: &BoundaryMotion| {
+            SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &|node: EdgeNode| motion.at(node, mesh, space))
+        };
+        let mut sides = motion.as_ref().filter(|_| follows(contact) || turns_others(contact)).map(sides_of);
+        let meeting = contact.known.meeting.as_ref().filter(|_| follows(contact));
+        meeting.zip(sides.as_mut()).into_iter().for_each(|(meeting, sides)| meeting.begin(sides));
+        let met = meeting.zip(sides.as_ref()).map(|(meeting, sides)| meeting.sides(sides));
+        let whole = sides.as_ref().filter(|sides| sides.iter().all(|side| side.len() == 1)).map(|[a, b]| [&a[0], &b[0]]);
+        let turned = turned(solution, contact, met.or(whole));
+        (one(problem, solution, (contact, is_set), &balance.strain, (bodies, turns), met, session), turned)
     };
-    let found: Vec<Option<(MotionError, FiniteMotion)>> = problem.contacts.iter().zip(&set).map(with_sides).collect();
-    let motions: Vec<Option<&FiniteMotion>> = found.iter().map(|found| found.as_ref().map(|(_, motion)| motion)).collect();
-    let directions = direction_errors(problem, &motions);
-    found
-        .iter()
-        .zip(directions)
-        .map(|(found, direction_error)| Some(MotionError { direction_error, ..found.as_ref()?.0 }))
-        .collect()
+    let (found, forces): (Vec<Option<MotionError>>, Vec<TurnedForce>) = problem.contacts.iter().zip(&set).map(with_sides).unzip();
+    let moments: Vec<f64> = bodies.iter().zip(&balance.guided).map(|(body, guided)| body.moment - guided).collect();
+    let directions = direction_errors(problem, freedoms, &forces, &moments);
+    found.iter().zip(directions).map(|(found, direction_error)| Some(MotionError { direction_error, ..(*found)? })).collect()
+}
+
+/// How the force of a contact has turned with its bodies.
+fn turned(solution: &Solution, contact: &Contact, sides: Option<[&SmoothSide; 2]>) -> TurnedForce {
+    turned_force(sides, &contact.boundary, &contact.multipliers, &solution.multipliers[contact.range()])
 }
 
 /// What motions spoil of one contact but for the direction of forces; equilibrium may set its force (`is_set`). **Collective**
@@ -108,7 +116,7 @@ fn one(
     (bodies, turns): (&[Deformation], &[f64]),
     sides: Option<[&SmoothSide; 2]>,
     session: &Session,
-) -> Option<(MotionError, FiniteMotion)> {
+) -> Option<MotionError> {
     let turns = [0, 1].map(|side| {
         let body = &bodies[contact.bodies[side]];
         let is_tool = problem.scene.tool(contact.bodies[side]).is_some();
@@ -134,14 +142,13 @@ fn one(
         let force = if is_set { 0.0 } else { (growth - gap.work).abs() / (2.0 * energy) };
         force.max(pressure_error(contact, &found, gap)).max(rolled)
     };
-    let spoilt = MotionError {
+    Some(MotionError {
         slip: sides.map(|_| found.slip / found.length),
         slip_error: sides.map(|_| error(&found.whole)),
         rotation_error: error(&found.turning),
         slant: sides.map_or(0.0, |sides| slant(&problem.scene, &solution.pressure(contact), sides)),
         direction_error: 0.0,
-    };
-    Some((spoilt, found))
+    })
 }
 
 /// The turn of a body that counts in a contact (radians), by that beside it and the mean of the body: the smaller one, and none where a
@@ -239,7 +246,7 @@ mod tests {
     fn bodies_that_turn_grow_by_half_the_square_of_the_angle() {
         let turned = |rotation: f64| {
             let (place, middle) = (Point::zeros(), Point::zeros());
-            Deformation { strain: 0.0, place, rotation, turned: rotation, growth: 0.0, middle, radius: 3.0 }
+            Deformation { strain: 0.0, place, rotation, turned: rotation, growth: 0.0, moment: 0.0, middle, radius: 3.0 }
         };
         let point = |gap: f64| {
             let (x, normal) = (Point::zeros(), Point::y());

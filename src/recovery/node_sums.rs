@@ -1,10 +1,14 @@
 //! Work and resultants of all forces, node by node.
 
-use crate::body::{Constraint, Holders, RigidSet};
+use crate::body::{Constraint, Holders, RigidSet, Support};
 use crate::discretisation::{Discretisation, Field, Solution, SystemError, nodal_forces};
-use crate::geometry::Point;
+use crate::geometry::{Point, cross};
+use crate::mesh::BoundaryEdge;
 use crate::petsc::Session;
 use std::collections::{HashMap, HashSet};
+
+/// Angle between edges of a boundary (radians) from which on it is curved: nodes in a file of six digits make less.
+const BENT: f64 = 1e-3;
 
 /// Work, by what does it.
 #[derive(Clone, Copy, Debug, Default)]
@@ -84,6 +88,8 @@ pub struct NodeSums {
     pub reactions: Vec<Point>,
     /// Force and moment of each rigid set.
     pub rigid: Vec<[f64; 3]>,
+    /// For each body `Σ u × r` over the nodes on curved guides.
+    pub guided: Vec<f64>,
 }
 
 /// Forces added up.
@@ -128,10 +134,11 @@ impl NodeSums {
         let holders = Holders::new(&problem.scene.mesh, &space.numbering, supports).map_err(SystemError::Case)?;
         // These carry nothing in a solution: what they do carry is missing in the balance of their body.
         let anchors = anchor_nodes(problem);
-        let set_of = set_of_nodes(problem);
+        let (set_of, guides) = (set_of_nodes(problem), nodes_on_curved_guides(problem));
         let (reactions, rigid) = (vec![Point::zeros(); supports.len()], vec![[0.0; 3]; sets.len()]);
         let bodies = vec![ForceSum::default(); problem.scene.bodies.len()];
-        let mut sums = Self { work: WorkTerms::of_sets(sets, session), bodies, reactions, rigid };
+        let guided = vec![0.0; bodies.len()];
+        let mut sums = Self { work: WorkTerms::of_sets(sets, session), bodies, reactions, rigid, guided };
         for (at, node) in space.own.clone().enumerate() {
             let [f, k, pull] = [applied.own()[at], internal.own()[at], springs.own()[at]].map(|[x, y]| Point::new(x, y));
             let (u, push) = (u.point(node), pressed.get(&node).copied().unwrap_or_default());
@@ -146,6 +153,7 @@ impl NodeSums {
             if !anchors.contains(&node) {
                 body.add(reaction);
             }
+            sums.guided[body_of[at]] += if guides.contains(&node) { cross(u, reaction) } else { 0.0 };
             if let Some(&(set, x)) = set_of.get(&node) {
                 (0..3).for_each(|k| sums.rigid[set][k] += reaction.dot(&sets[set].mode(k, x)));
             }
@@ -157,6 +165,7 @@ impl NodeSums {
     /// Adds up those of all ranks. **Collective**
     fn of_all_ranks(mut self, session: &Session) -> Self {
         session.sum(self.rigid.as_flattened_mut());
+        session.sum(&mut self.guided);
         let mut reactions: Vec<f64> = self.reactions.iter().flat_map(|force| [force.x, force.y]).collect();
         session.sum(&mut reactions);
         let reactions = reactions.chunks_exact(2).map(|force| Point::new(force[0], force[1])).collect();
@@ -172,6 +181,19 @@ fn set_of_nodes(problem: &Discretisation) -> HashMap<usize, (usize, Point)> {
         set.places(&scene.mesh, numbering).into_iter().map(move |(node, x)| (node, (number, x)))
     };
     scene.rigid.iter().enumerate().flat_map(places).collect()
+}
+
+/// Nodes that are held along the normals of a boundary which is not straight.
+fn nodes_on_curved_guides(problem: &Discretisation) -> HashSet<usize> {
+    let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
+    let of_guide = |support: &Support| {
+        let normals = || mesh.edges_on(&support.on).map(|edge| mesh.edge_normal(edge, 0.5));
+        let first = normals().next().unwrap_or_default();
+        let is_curved = support.normal.is_some() && normals().any(|normal| cross(first, normal).abs() > BENT);
+        let edges: Vec<u32> = if is_curved { mesh.edges_on(&support.on).collect() } else { Vec::new() };
+        edges.into_iter().flat_map(|edge| BoundaryEdge::all_of(mesh, edge, numbering)).flat_map(|edge| edge.nodes)
+    };
+    problem.scene.supports.iter().flat_map(of_guide).map(|node| node.number(mesh, numbering)).collect()
 }
 
 /// Nodes that hold bodies whose mean motion is held while the system is solved.

@@ -16,12 +16,14 @@ use crate::element::{Order, Plane};
 use crate::geometry::{AXES, Point};
 use crate::mesh::{Level, MacroMesh, Numbering, SmoothNormals, each_once};
 use crate::petsc::Session;
-use nalgebra::{Matrix2, Vector2};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 /// Cosine of the angle (8 degrees) between a chord's normal and that of its arc at most.
 const ALIKE: f64 = 0.99;
+
+/// Stiffness of springs by Young's modulus of their body below which equilibrium sets the force of a contact beside them, to a hundredth.
+const FIRM: f64 = 1e-2;
 
 /// Words for a body that neither supports nor the active multipliers hold; nothing if all are held. **Collective**
 pub fn not_held(problem: &Discretisation, active: &[bool], session: &Session) -> Option<String> {
@@ -64,24 +66,9 @@ pub fn free_motion_if_closed(
 /// farther apart there come together again. **Collective**
 pub fn needed_contacts(problem: &Discretisation, active: &[bool], session: &Session) -> Vec<bool> {
     let (whole, extents) = (Restraints::of(problem, session), problem.scene.extents());
-    contact::needed_contacts(&extents, &support_conditions(&problem.scene, &extents), &whole.touches(&extents, active))
-}
-
-/// For each body that supports alone do not hold what they hold of its shifts: `Σ d dᵀ` over the directions d that they see.
-pub fn shifts_held_by_supports(scene: &Scene) -> Vec<Option<Matrix2<f64>>> {
-    let extents = scene.extents();
-    let mut of_piece: Vec<Vec<Condition>> = vec![Vec::new(); extents.len()];
-    let conditions = support_conditions(scene, &extents).into_iter();
-    conditions.for_each(|condition| of_piece[condition.piece].push(Condition { piece: 0, ..condition }));
-    let mut shifts: Vec<Option<Matrix2<f64>>> = vec![None; scene.bodies.len()];
-    for (piece, own) in of_piece.iter().enumerate() {
-        if find_mechanism(&extents[piece..=piece], own, &[]).is_some() {
-            let seen = own.iter().map(|condition| Vector2::new(condition.sees[0][0], condition.sees[0][1]));
-            *shifts[scene.mesh.pieces[piece].body].get_or_insert_default() +=
-                seen.map(|d| d * d.transpose()).sum::<Matrix2<f64>>();
-        }
-    }
-    shifts
+    let mut held = support_conditions(&problem.scene, &extents);
+    held.extend(spring_conditions(&problem.scene, &extents, FIRM));
+    contact::needed_contacts(&extents, &held, &whole.touches(&extents, active))
 }
 
 /// Of the open multipliers those that hold every body if they close: for one motion after the other that nothing holds, the one with
@@ -138,13 +125,13 @@ impl<'a> Restraints<'a> {
     /// **Collective**
     fn mechanism(&self, active: &[bool]) -> Option<Mechanism> {
         let extents = self.scene.extents();
-        find_mechanism(&extents, &support_conditions(self.scene, &extents), &self.touches(&extents, active))
+        find_mechanism(&extents, &holding_conditions(self.scene, &extents), &self.touches(&extents, active))
     }
 
     /// What is told of a motion that nothing holds.
     fn free<T>(&self, tell: impl FnOnce(&FreeMotion) -> T, mechanism: &Mechanism) -> T {
         let extents = self.scene.extents();
-        let supports = support_conditions(self.scene, &extents);
+        let supports = holding_conditions(self.scene, &extents);
         tell(&FreeMotion { scene: self.scene, mechanism, extents: &extents, supports: &supports })
     }
 
@@ -241,8 +228,13 @@ fn of_all_ranks(own: &[Touch], session: &Session) -> Vec<Touch> {
     all
 }
 
+/// Everything that supports and springs hold, at the macro vertices.
+fn holding_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
+    support_conditions(scene, extents).into_iter().chain(spring_conditions(scene, extents, 0.0)).collect()
+}
+
 /// Everything that supports hold, at the macro vertices.
-fn support_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
+pub fn support_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
     let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, &scene.partition);
     let along_normals = scene.supports.iter().filter(|support| support.normal.is_some());
     let normals = mean_normals(&scene.mesh, along_normals.map(|support| scene.mesh.edges_on(&support.on).collect()));
@@ -255,7 +247,7 @@ fn support_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
     let free = scene.rigid.iter().filter(|set| set.free().next().is_some());
     let rigid = free.flat_map(|set| rigid_conditions(scene, set, extents)).chain(revolution_conditions(scene));
     let held = supported(scene, &numbering, &[]).into_iter().filter_map(condition);
-    held.chain(mean_conditions(scene, extents)).chain(rigid).chain(spring_conditions(scene, extents)).collect()
+    held.chain(mean_conditions(scene, extents)).chain(rigid).collect()
 }
 
 /// The mean motions that are held: a turn about the middle of a body, or the shift of that. Anchors would hold a turn as far as the body
@@ -295,17 +287,19 @@ fn rigid_conditions(scene: &Scene, set: &RigidSet, extents: &[Extent]) -> Vec<Co
     prescribed.filter_map(|(terms, _)| Condition::new(extents, piece, None, &terms, 0.0)).collect()
 }
 
-/// What springs resist at the macro vertices, however soft they are.
-fn spring_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
+/// What springs resist at the macro vertices, if their whole boundary is this much stiffer than the body's Young's modulus.
+fn spring_conditions(scene: &Scene, extents: &[Extent], firm: f64) -> Vec<Condition> {
     let mesh = &scene.mesh;
     let mut all = Vec::new();
     for springs in &scene.springs {
         let edges = springs.edges(mesh);
         let normals = mean_normals(mesh, [edges.clone()]);
+        let length: f64 = edges.iter().map(|&edge| mesh.edge_slope(edge, 0.5).norm()).sum();
         for &edge in &edges {
+            let least = firm * scene.young_of(mesh.triangles[mesh.beside(edge).0 as usize].part as usize) / length;
             for vertex in mesh.edges[edge as usize].vertices {
                 let place = mesh.vertices[vertex as usize];
-                let held = springs.stiffness.at(place, normals[&vertex]).into_iter().filter(|(_, k)| *k > 0.0);
+                let held = springs.stiffness.at(place, normals[&vertex]).into_iter().filter(|(_, k)| *k > least);
                 let piece = mesh.piece_beside(edge);
                 all.extend(held.filter_map(|(direction, _)| Condition::new(extents, piece, None, &[(place, direction)], 0.0)));
             }

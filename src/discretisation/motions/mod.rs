@@ -2,13 +2,13 @@
 //! tool has moved by once a solution is found.
 
 mod free_motion;
+mod freedom;
 mod held;
 mod mean_force;
 mod rigid_motion;
 mod rigid_start;
 
-pub use held::{
-    adrift, few_that_hold, free_motion_if_closed, needed_contacts, not_held, not_held_if_closed, shifts_held_by_supports,
-};
+pub use freedom::Freedom;
+pub use held::{adrift, few_that_hold, free_motion_if_closed, needed_contacts, not_held, not_held_if_closed};
 pub use rigid_motion::{rigid_motions, settle};
 pub use rigid_start::rigid_start;

@@ -180,9 +180,9 @@ pub static SLANT: Limit = most((0.01, two_digits,
 /// `direction_error`: a body that rolls or slides turns the direction of what presses on it, and what else holds it takes the difference. A
 /// rocker that is pushed onto a wall with a fiftieth of its load, and turned by .03, .015 and .007 by that load off its centre: 3.1 for
 /// errors of the wall's force of .75, .41 and .21 of itself.
-pub static DIRECTION: Limit = most((0.01, two_digits, Words("take configuration = \"deformed\" in all contacts of these bodies"),
+pub static DIRECTION: Limit = most((0.01, two_digits, Words("take curve = \"fit\" with configuration = \"deformed\" in all contacts of these bodies, or draw them as they lie"),
     "forces turn with the bodies",
-    "the bodies roll or slide, and forces on them turn: this one wrong by about {value} (relative), at most {bound} wanted"));
+    "the bodies roll, slide or turn, and forces on them with them: this one wrong by about {value} (relative), at most {bound} wanted"));
 
 const TURNING_CAUSE: &str = "the bodies turn too far";
 const TURN_LESS: &str = "the theory is that of small rotations: draw the bodies as they lie after turning, and turn them by less";
