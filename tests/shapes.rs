@@ -265,3 +265,42 @@ contact.seam = { between = ["pipe.out", "cradle.in"] }
     assert!(error < 1e-3 && (force / pressed - 1.0).abs() < 1e-3, "{error}: {force} for {pressed}");
     assert!((peak / drawn - 1.0).abs() < 2e-2, "{peak} for {drawn}");
 }
+
+/// A punch with a flat of 4 and tangent arcs of radius 20 beside it, a contact each. What presses on the arcs, 1.1 of 30 on either side, is
+/// narrower than their edges: the flat has all of it, as a punch with corners would, and none of the three is trusted.
+#[test]
+fn a_contact_that_is_missed_beside_a_smooth_joint_is_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let crown = |x: f64| if x.abs() > 2.0 { 20.0 - (400.0 - (x.abs() - 2.0).powi(2)).sqrt() } else { 0.0 };
+    let mut punch = grid(24, 8, 0, |u, v| {
+        let x = 12.0 * u - 6.0;
+        [x, (1.0 - v) * crown(x) + 4.0 * v]
+    });
+    let bottom = punch.sides[0].clone();
+    let middle = |edge: &[usize; 2]| edge.iter().map(|&k| punch.points[k][0]).sum::<f64>() / 2.0;
+    let part = |is: &dyn Fn(f64) -> bool| bottom.iter().filter(|edge| is(middle(edge))).copied().collect::<Vec<_>>();
+    let (flat, right, left) = (part(&|x| x.abs() < 2.0), part(&|x| x > 2.0), part(&|x| x < -2.0));
+    (punch.sides[0], punch.sides[1], punch.sides[3]) = (flat, right, left);
+    let base = grid(28, 8, 0, |u, v| [16.0 * u - 8.0, 6.0 * v - 6.0]);
+    let bodies = vec![("punch", punch, ["flat", "right", "top", "left"]), ("base", base, ["bottom", "", "base.top", ""])];
+    let case = r#"
+mesh = { file = "mesh.msh", refine = 2 }
+body."*" = { young = 210e3, poisson = 0.3 }
+support.bottom = { on = "bottom", ux = 0.0, uy = 0.0 }
+load.top = { on = "top", rigid = true, force = [0.0, -30.0], ux = 0.0 }
+contact.left = { between = ["base.top", "left"] }
+contact.middle = { between = ["base.top", "flat"] }
+contact.right = { between = ["base.top", "right"] }
+"#;
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), case);
+    for ranks in [1, 2] {
+        let ended = Run::file(&file).ranks(ranks).ended();
+        for contact in ["left", "middle", "right"] {
+            let of = |key: &str| ended.value(&format!("/contact/{contact}/{key}"));
+            assert_eq!((of("trust").clone(), of("trust_force").clone()), (false.into(), false.into()), "{}", ended.said());
+            assert!(ended.number(&format!("/contact/{contact}/cut_at_joint")) > 0.5, "{contact}");
+        }
+        assert_eq!(ended.value("/contact/middle/zones/0/corner"), false);
+        assert!(ended.errors.contains("draw shorter edges on both sides"), "{}", ended.errors);
+    }
+}

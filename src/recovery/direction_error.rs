@@ -27,19 +27,19 @@ pub fn direction_errors(
     forces: &[TurnedForce],
     moments: &[f64],
 ) -> Vec<f64> {
-    Frame::new(problem, freedoms, forces, moments).settled()
+    Framework::new(problem, freedoms, forces, moments).settled()
 }
 
 /// Bodies and the contacts between them, with what is out of balance.
-struct Frame {
+struct Framework {
     bodies: Vec<Option<FreeBody>>,
-    joints: Vec<Joint>,
+    struts: Vec<Strut>,
 }
 
 /// A body that supports do not hold.
 struct FreeBody {
     /// Its contacts, and which of their bodies it is.
-    joints: Vec<(usize, usize)>,
+    struts: Vec<(usize, usize)>,
     freedom: Freedom,
     /// Its motion by what is out of balance.
     compliance: Matrix3<f64>,
@@ -48,7 +48,7 @@ struct FreeBody {
 }
 
 /// A contact that presses.
-struct Joint {
+struct Strut {
     bodies: [usize; 2],
     force: f64,
     /// Of shifts and turns about its middle, by the stiffness that all contacts have.
@@ -59,13 +59,13 @@ struct Joint {
     taken: Vector3<f64>,
 }
 
-impl Frame {
+impl Framework {
     fn new(problem: &Discretisation, mut freedoms: Vec<Option<Freedom>>, forces: &[TurnedForce], moments: &[f64]) -> Self {
         // Springs count beside contacts, which are about as stiff as their bodies.
         let moduli = problem.contacts.iter().flat_map(|contact| &contact.multiplier_moduli).copied();
         let stiffness = moduli.fold(0.0, f64::max);
         freedoms.iter_mut().flatten().for_each(|freedom| freedom.springs /= stiffness);
-        let joint = |(contact, own): (&Contact, &TurnedForce)| Joint {
+        let strut = |(contact, own): (&Contact, &TurnedForce)| Strut {
             bodies: contact.bodies,
             force: own.force,
             resistance: if own.force > 0.0 { own.resistance / own.force } else { Matrix3::zeros() },
@@ -74,23 +74,23 @@ impl Frame {
                 .map(|body| freedoms[body].as_ref().map_or(Matrix3::zeros(), |freedom| freedom.frame(own.middle))),
             taken: Vector3::zeros(),
         };
-        let joints: Vec<Joint> = problem.contacts.iter().zip(forces).map(joint).collect();
+        let struts: Vec<Strut> = problem.contacts.iter().zip(forces).map(strut).collect();
         let body = |(at, freedom): (usize, Option<Freedom>)| {
             let freedom = freedom?;
-            let of_joint = |(k, joint): (usize, &Joint)| Some((k, joint.bodies.iter().position(|&body| body == at)?));
-            let own: Vec<(usize, usize)> = joints.iter().enumerate().filter_map(of_joint).collect();
-            let resistance = own.iter().map(|&(k, side)| joints[k].seen(side, side)).sum();
-            let turned: Vector3<f64> = own.iter().map(|&(k, side)| joints[k].into[side] * forces[k].turned[side]).sum();
+            let of_joint = |(k, strut): (usize, &Strut)| Some((k, strut.bodies.iter().position(|&body| body == at)?));
+            let own: Vec<(usize, usize)> = struts.iter().enumerate().filter_map(of_joint).collect();
+            let resistance = own.iter().map(|&(k, side)| struts[k].seen(side, side)).sum();
+            let turned: Vector3<f64> = own.iter().map(|&(k, side)| struts[k].into[side] * forces[k].turned[side]).sum();
             let moment = Vector3::new(0.0, 0.0, moments[at] / freedom.extent.radius);
             let left = turned + moment;
-            Some(FreeBody { joints: own, compliance: freedom.compliance(&resistance), freedom, left })
+            Some(FreeBody { struts: own, compliance: freedom.compliance(&resistance), freedom, left })
         };
-        Self { bodies: freedoms.into_iter().enumerate().map(body).collect(), joints }
+        Self { bodies: freedoms.into_iter().enumerate().map(body).collect(), struts }
     }
 
     /// What each contact has taken up in the end, by its own force.
     fn settled(mut self) -> Vec<f64> {
-        let mut errors = vec![0.0; self.joints.len()];
+        let mut errors = vec![0.0; self.struts.len()];
         for _ in 0..ROUNDS {
             (0..self.bodies.len()).for_each(|body| self.distribute(body));
             let before = std::mem::replace(&mut errors, self.errors());
@@ -103,8 +103,8 @@ impl Frame {
 
     /// What each contact has taken up, by its own force.
     fn errors(&self) -> Vec<f64> {
-        let error = |joint: &Joint| if joint.force > 0.0 { joint.taken.xy().norm() / joint.force } else { 0.0 };
-        self.joints.iter().map(error).collect()
+        let error = |strut: &Strut| if strut.force > 0.0 { strut.taken.xy().norm() / strut.force } else { 0.0 };
+        self.struts.iter().map(error).collect()
     }
 
     /// Moves a body by what is out of balance on it, so that its contacts and springs take that up, or hand it on.
@@ -112,12 +112,12 @@ impl Frame {
         let Some(body) = &mut self.bodies[at] else { return };
         let moves = body.compliance * body.left;
         body.left -= body.freedom.springs * moves;
-        for (k, side) in body.joints.clone() {
-            let joint = &mut self.joints[k];
-            joint.taken += joint.resistance * joint.into[side].transpose() * moves * if side == 0 { 1.0 } else { -1.0 };
+        for (k, side) in body.struts.clone() {
+            let strut = &mut self.struts[k];
+            strut.taken += strut.resistance * strut.into[side].transpose() * moves * if side == 0 { 1.0 } else { -1.0 };
             for (of, sign) in [(side, -1.0), (1 - side, 1.0)] {
-                let handed = joint.seen(of, side) * moves;
-                if let Some(body) = &mut self.bodies[joint.bodies[of]] {
+                let handed = strut.seen(of, side) * moves;
+                if let Some(body) = &mut self.bodies[strut.bodies[of]] {
                     body.left += sign * handed;
                 }
             }
@@ -125,7 +125,7 @@ impl Frame {
     }
 }
 
-impl Joint {
+impl Strut {
     /// Force and moment on one of its bodies by a motion of one of them.
     fn seen(&self, on: usize, by: usize) -> Matrix3<f64> {
         self.into[on] * self.resistance * self.into[by].transpose()
@@ -139,7 +139,7 @@ mod tests {
     use crate::geometry::Point;
 
     /// A row of free bodies between two walls, all pressed by one; the first is pushed along the row and across it.
-    fn row(count: usize) -> Frame {
+    fn row(count: usize) -> Framework {
         let freedom = || Freedom {
             extent: Extent { middle: Point::zeros(), radius: 1.0 },
             free: Matrix3::identity(),
@@ -147,27 +147,27 @@ mod tests {
         };
         let normal = Vector3::new(1.0, 0.0, 0.0);
         let is_wall = |body: usize| body == 0 || body > count;
-        let joint = |at: usize| Joint {
+        let strut = |at: usize| Strut {
             bodies: [at, at + 1],
             force: 1.0,
             resistance: normal * normal.transpose(),
             into: [at, at + 1].map(|body| if is_wall(body) { Matrix3::zeros() } else { Matrix3::identity() }),
             taken: Vector3::zeros(),
         };
-        let joints: Vec<Joint> = (1..=count).map(joint).collect();
+        let struts: Vec<Strut> = (1..=count).map(strut).collect();
         let body = |at: usize| {
-            let of_joint = |(k, joint): (usize, &Joint)| Some((k, joint.bodies.iter().position(|&body| body == at)?));
-            let own: Vec<(usize, usize)> = joints.iter().enumerate().filter_map(of_joint).collect();
-            let resistance = own.iter().map(|&(k, side)| joints[k].seen(side, side)).sum();
+            let of_joint = |(k, strut): (usize, &Strut)| Some((k, strut.bodies.iter().position(|&body| body == at)?));
+            let own: Vec<(usize, usize)> = struts.iter().enumerate().filter_map(of_joint).collect();
+            let resistance = own.iter().map(|&(k, side)| struts[k].seen(side, side)).sum();
             let left = if at == 1 { Vector3::new(0.3, 9.0, 0.0) } else { Vector3::zeros() };
             (!is_wall(at)).then(|| FreeBody {
-                joints: own,
+                struts: own,
                 compliance: freedom().compliance(&resistance),
                 freedom: freedom(),
                 left,
             })
         };
-        Frame { bodies: (0..count + 2).map(body).collect(), joints }
+        Framework { bodies: (0..count + 2).map(body).collect(), struts }
     }
 
     /// The first wall does not touch: all that pushes the first body goes through the row, and nothing of what pushes it across.

@@ -3,6 +3,7 @@
 use super::balance::{Balance, balance};
 use super::contact_forces::ContactForce;
 use super::corners::{Corners, corners};
+use super::cut_off::cut_at_joint;
 use super::deformation::{Deformation, deformations};
 use super::end_slip::{EndSlip, slip_at_ends};
 use super::motion_error::{MotionError, growth_by_gap, motion_errors};
@@ -89,6 +90,11 @@ impl<'a> Evaluation<'a> {
     pub fn slip_at_ends(&self, contact: usize, zones: &[[f64; 2]], points: &[TracePoint]) -> Option<EndSlip> {
         let (all, force) = (&self.problem.contacts, self.balance.contacts[contact].force);
         slip_at_ends((&all[contact], all), &self.problem.scene.mesh, (zones, points), force)
+    }
+
+    /// λ at a smooth joint with another contact where only one of both presses, by the largest.
+    pub fn cut_at_joint(&self, contact: usize) -> f64 {
+        cut_at_joint(contact, self.problem, self.solution)
     }
 
     /// Corners of the bodies of a contact within `zones`: the arcs that press.

@@ -103,16 +103,6 @@ impl ContactPressure<'_> {
         let rows = self.contact.joints.iter().flat_map(of_joint);
         rows.filter(|(_, row, _)| self.size(row[0], 0.5) > least).collect()
     }
-
-    /// Whether a zone reaches an end of Γ_C where one of the bodies has a corner and the other goes on.
-    pub fn ends_at_a_corner(&self, mesh: &MacroMesh, zone: &Zone, end: usize) -> bool {
-        if !zone.is_at_end[end] || self.contact.boundary.is_closed() {
-            return false;
-        }
-        let beyond = beyond(self.contact, mesh, end);
-        let least = beyond[0].min(beyond[1]);
-        least.abs() < SAME && beyond[0].max(beyond[1]) > SAME
-    }
 }
 
 /// How far the boundary of each body goes on beyond an end of Γ_C, by the length of Γ_C.

@@ -57,6 +57,8 @@ pub struct ContactSummary {
     pub slant: Option<f64>,
     /// What forces on the same free bodies have along the force of this contact once the bodies have moved, and not before, by that force.
     pub direction_error: Option<f64>,
+    /// λ where another contact goes on smoothly from this one and only one of both presses, by its largest; 0 elsewhere.
+    pub cut_at_joint: Option<f64>,
     /// Sharpest corner of a body within what presses, in degrees; of fitted curves only.
     pub corner_angle: Option<f64>,
     /// Estimated relative error of λ by that corner.

@@ -54,6 +54,7 @@ pub fn contact(solved: &Solved, found: &Evaluation, at: usize, points: &[TracePo
         rotation_error: motion.map(|motion| motion.rotation_error).or_else(growth),
         slant: motion.map(|motion| motion.slant),
         direction_error: motion.map(|motion| motion.direction_error),
+        cut_at_joint: Some(found.cut_at_joint(at)),
         corner_angle: corners.as_ref().map(|corners| corners.angle.to_degrees()),
         corner_error,
         shape_error: shape_errors.map(|[of_pressure, _]| of_pressure),

@@ -5,6 +5,7 @@
 
 use super::Remedy::{Finer, MoreSegments, Stability, Words};
 use super::{Limit, least, most};
+use crate::accuracy::CUT;
 use crate::run::words::{short, two_digits};
 
 fn one(value: f64) -> String { format!("{value:.1}") }
@@ -93,12 +94,15 @@ pub static OVERLAP_BEYOND: Limit = most((0.01, two_digits, Words("take ends = \"
 pub static WITHIN_SEGMENTS: Limit = most((0.1, two, MoreSegments, "the bodies penetrate each other within segments",
     "the bodies penetrate each other within segments{worth}"));
 
-/// `zones[].cut_off`: λ where a zone is cut off, by its largest: half an ellipse that is cut off at both ends where it has a tenth of its
-/// height lacks 4e-4 of its force.
-pub static CUT_OFF: Limit = most((0.1, two,
+/// `zones[].cut_off`: λ where a zone is cut off, by its largest.
+pub static CUT_OFF: Limit = most((CUT, two,
     Words("name what lies beyond in this contact, too, or give it a name and a contact of its own that begins there"),
     "contact goes on beyond the end of its boundary",
     "it presses up to an end of its boundary, with {value} of its largest λ there, and both bodies go on beyond"));
+
+/// `cut_at_joint`: λ where another contact goes on smoothly, and one of both presses alone, by its largest: as of `zones[].cut_off`.
+pub static CUT_AT_JOINT: Limit = most((CUT, two, Words("draw shorter edges on both sides of where the two meet"), "it and the contact that goes on from it do not both press where they meet",
+    "of it and the contact that goes on from it one alone presses where they meet, with {value} of its largest λ"));
 
 // The whole solution.
 

@@ -5,7 +5,7 @@ use crate::accuracy::{NARROWEST, WORTH_WITHIN_SEGMENTS};
 use crate::procedure::MOVES;
 
 /// Every row of the table, with its figure.
-const ROWS: [(&str, &Limit); 30] = [
+const ROWS: [(&str, &Limit); 31] = [
     ("inf_sup", &INF_SUP),
     ("oscillation", &OSCILLATION),
     ("zones[].edges", &EDGES),
@@ -31,6 +31,7 @@ const ROWS: [(&str, &Limit); 30] = [
     ("slip_at_ends", &SLIP_AT_ENDS),
     ("slant", &SLANT),
     ("direction_error", &DIRECTION),
+    ("cut_at_joint", &CUT_AT_JOINT),
     ("rotation_error", &TURNING),
     ("rotation_error", &GROWTH),
     ("rotation_max", &ROTATION),
