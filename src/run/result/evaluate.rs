@@ -95,20 +95,21 @@ impl Run<'_> {
 impl Run<'_> {
     /// Expected values and trust: the status, and the reason so far. `missed` are values that the case expects.
     fn judge(&self, summary: &mut Summary, solved: &Solved, missed: &[String]) -> (Status, String) {
-        let (mut status, mut reason) = ended(solved);
+        let ((mut status, mut reason), mut none) = (ended(solved), None);
         if status == Status::Converged {
             missed.iter().for_each(|missed| self.report.say(&format!("missed: {missed}")));
             let missed = (self.case.exact.must_hold && !missed.is_empty())
                 .then(|| format!("expected values are missed ({})", missed.join("; ")));
-            let stopped = missed.or_else(|| no_result(summary, self.case)).map(|words| (Status::NotConverged, words));
+            none = no_result(summary, self.case);
+            let stopped = missed.or_else(|| none.clone()).map(|words| (Status::NotConverged, words));
             let loose = adrift(self, summary, solved);
             let coarse =
                 || Some((Status::Unresolved, loose.or_else(|| unresolved(summary, self.case, solved.ending.still_moved()))?));
             (status, reason) = stopped.or_else(coarse).unwrap_or((status, reason));
         }
         let judgement = trust::judge(summary, self.case, solved.ending.is_converged());
-        if status == Status::Unresolved {
-            trust::distrust(summary);
+        if status == Status::Unresolved || none.is_some() {
+            trust::distrust(summary, if none.is_some() { "has not converged" } else { "is not resolved" });
         }
         if let Some(words) = judgement.unreliable {
             let words = format!("pressure unreliable: {words}");

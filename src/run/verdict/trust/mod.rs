@@ -56,12 +56,12 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
     Judgement { unreliable: (!doubts.is_empty()).then(|| doubts.join("; ")), unknown }
 }
 
-/// Leaves no contact trusted, of a run that is not resolved.
-pub fn distrust(summary: &mut Summary) {
+/// Leaves no contact trusted, of a run that is not resolved, or that has not converged though its solve has.
+pub fn distrust(summary: &mut Summary, why: &str) {
     for ContactSummary { judged, .. } in summary.contact.values_mut() {
         let why = match judged.trust {
             Some(false) => judged.verdict.take(),
-            _ => Some("not trusted: the run is not resolved".into()),
+            _ => Some(format!("not trusted: the run {why}")),
         };
         *judged = ContactTrust { trust: Some(false), trust_force: Some(false), verdict: why };
     }
