@@ -302,5 +302,11 @@ contact.right = { between = ["base.top", "right"] }
         }
         assert_eq!(ended.value("/contact/middle/zones/0/corner"), false);
         assert!(ended.errors.contains("draw shorter edges on both sides"), "{}", ended.errors);
+        // With an accuracy the mesh becomes finer there until both press.
+        let ended = Run::file(&file).ranks(ranks).set("accuracy.force", "1e-2").converged();
+        let [left, middle, right] = ["left", "middle", "right"].map(|contact| ended.number(&format!("/contact/{contact}/force")));
+        assert!(left > 0.5 && (left - right).abs() < 0.02 * left, "{left} and {right}");
+        assert!((left + middle + right - 30.0).abs() < 0.01, "{middle}");
+        assert_eq!(ended.value("/contact/middle/trust_force"), true, "{}", ended.said());
     }
 }

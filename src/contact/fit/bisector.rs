@@ -108,8 +108,8 @@ impl Bisector {
             }
             before = (moved, count);
         }
-        let data = parameters_between(&points);
-        let limits = turn.map_or_else(|| limits(sides, nodes, pair, &curve, data), |turn| [0.0, turn]);
+        let data: Vec<f64> = points.iter().filter(|point| point.is_between).map(|point| point.parameter).collect();
+        let limits = turn.map_or_else(|| limits(sides, nodes, pair, &curve, &data), |turn| [0.0, turn]);
         Ok(Self { curve, limits })
     }
 }
@@ -145,11 +145,15 @@ fn reflected(x: Point) -> Point {
     Point::new(-x.x, x.y)
 }
 
-/// The part of the curve that both sides see: the data, but up to the feet of the ends of a side and no farther. Least squares
-/// may begin a little inside of such an end: pressure would be missing between the two.
-fn limits(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair, curve: &Curve, data: [f64; 2]) -> [f64; 2] {
+/// The part of the curve that both sides see: the data, ascending, but up to the feet of the ends of a side and no farther. Least squares
+/// may begin inside of such an end, and each correction moves the first place farther in: pressure would be missing between the two. A
+/// curve is known as far beyond its data as these are from each other.
+fn limits(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair, curve: &Curve, data: &[f64]) -> [f64; 2] {
+    let count = data.len();
+    let spacing = [data[1] - data[0], data[count - 1] - data[count - 2]];
+    let data = [data[0], data[count - 1]];
     let middle = 0.5 * (data[0] + data[1]);
-    let beyond = BEYOND * (data[1] - data[0]);
+    let beyond = spacing.map(|spacing| spacing.max(BEYOND * (data[1] - data[0])));
     let (mut limits, mut ends) = (data, [false; 2]);
     for (side, nodes) in sides.iter().zip(nodes).filter(|(side, _)| side.turn().is_none()) {
         let last = side.points.len() - 1;
@@ -157,10 +161,10 @@ fn limits(sides: [&SmoothSide; 2], nodes: &[Range<usize>; 2], pair: &Pair, curve
             let foot = curve.nearest(side.positions(pair.configuration)[node]);
             let foot = if side.poles().any(|pole| pole == node) { on_axis(curve, foot) } else { foot };
             if foot < middle {
-                let nearest = if ends[0] { limits[0] } else { data[0] - beyond };
+                let nearest = if ends[0] { limits[0] } else { data[0] - beyond[0] };
                 (limits[0], ends[0]) = (nearest.max(foot), true);
             } else {
-                let nearest = if ends[1] { limits[1] } else { data[1] + beyond };
+                let nearest = if ends[1] { limits[1] } else { data[1] + beyond[1] };
                 (limits[1], ends[1]) = (nearest.min(foot), true);
             }
         }
