@@ -8,7 +8,6 @@ use crate::contact::{Law, Zone};
 use crate::discretisation::{Contact, ContactPressure, Discretisation, Scene, Solution};
 use crate::geometry::Point;
 use crate::mesh::MacroMesh;
-use std::collections::HashSet;
 use std::f64::consts::PI;
 
 /// A boundary goes on smoothly where it turns towards the other body by less than this (20 degrees): less is taken for chords of an
@@ -121,43 +120,39 @@ pub fn cut_at_joint(at: usize, problem: &Discretisation, solution: &Solution) ->
         let pressure = solution.pressure(contact);
         pressure.zones().iter().filter(|zone| zone.is_at_end[end]).map(|zone| pressure.height(zone, end)).fold(0.0, f64::max)
     };
-    let cut = |contact: &'_ Contact, end: usize| {
-        let (other, there, is_near) = going_on(contact, end, all, mesh)?;
-        let is_own = [contact.first, other.first].contains(&all[at].first);
-        if !is_own || !goes_on(contact, mesh, end) && !goes_on(other, mesh, there) {
+    let cut = |contact: &Contact, end: usize, other: &Contact| {
+        let (there, is_near) = going_on(contact, end, other, mesh)?;
+        if !goes_on(contact, mesh, end) && !goes_on(other, mesh, there) {
             return None;
         }
         let heights = [height(contact, end), if is_near { height(other, there) } else { 0.0 }];
         heights.iter().any(|height| *height <= 0.0).then_some(heights[0].max(heights[1]))
     };
+    let own = &all[at];
+    let others = all.iter().filter(|other| other.first != own.first && other.bodies.iter().all(|body| own.bodies.contains(body)));
     // Γ_C of one that does not press may begin farther off.
-    let beside = all.iter().filter(|contact| contact.bodies.iter().all(|body| all[at].bodies.contains(body)));
-    beside.flat_map(|contact| [0, 1].map(|end| (contact, end))).filter_map(|(contact, end)| cut(contact, end)).fold(0.0, f64::max)
+    let joints = others.flat_map(|other| [(own, 0, other), (own, 1, other), (other, 0, own), (other, 1, own)]);
+    joints.filter_map(|(contact, end, other)| cut(contact, end, other)).fold(0.0, f64::max)
 }
 
-/// The contact of the same bodies whose sides go on from a vertex at an end of Γ_C, with which of its ends, and whether its Γ_C does: that
-/// is where it presses, or where its nodes are near.
-fn going_on<'a>(contact: &Contact, end: usize, all: &'a [Contact], mesh: &MacroMesh) -> Option<(&'a Contact, usize, bool)> {
+/// Whether sides of another contact go on from a vertex at an end of Γ_C: with which of its ends, and whether its Γ_C begins there.
+fn going_on(contact: &Contact, end: usize, other: &Contact, mesh: &MacroMesh) -> Option<(usize, bool)> {
     let here = contact.boundary.point(contact.boundary.ends()[end]);
     let reach = |contact: &Contact| contact.edge_length().max(NEAR * contact.boundary.length());
-    let vertices = |side: &String| -> HashSet<u32> {
-        mesh.edges_of(side).iter().flat_map(|&edge| mesh.edges[edge as usize].vertices).collect()
-    };
-    let joint = |other: &Contact| {
-        let near = reach(contact).max(reach(other));
-        let [own, others] = [contact, other].map(|contact| &contact.pair.between);
-        // A side that both have goes on anywhere.
-        let apart = own.iter().flat_map(|a| others.iter().map(move |b| (a, b))).filter(|(a, b)| a != b);
-        let shared = apart.flat_map(|(a, b)| vertices(a).intersection(&vertices(b)).copied().collect::<Vec<_>>());
-        let places = shared.map(|vertex| mesh.vertices[vertex as usize]);
-        let joint = places.into_iter().find(|joint| (joint - here).norm() < near)?;
-        let away = other.boundary.ends().map(|t| (other.boundary.point(t) - joint).norm());
-        let there = usize::from(away[1] < away[0]);
-        Some((there, away[there] < near))
-    };
-    let others =
-        all.iter().filter(|other| other.first != contact.first && other.bodies.iter().all(|body| contact.bodies.contains(body)));
-    others.into_iter().find_map(|other| joint(other).map(|(there, is_near)| (other, there, is_near)))
+    let near = reach(contact).max(reach(other));
+    let vertices = |side: &String| mesh.edges_of(side).iter().flat_map(|&edge| mesh.edges[edge as usize].vertices);
+    let place = |vertex: u32| mesh.vertices[vertex as usize];
+    let [own, others] = [contact, other].map(|contact| &contact.pair.between);
+    // A side that both have goes on anywhere.
+    let mut apart = own.iter().flat_map(|a| others.iter().map(move |b| (a, b))).filter(|(a, b)| a != b);
+    let joint = apart.find_map(|(a, b)| {
+        vertices(a)
+            .filter(|&vertex| (place(vertex) - here).norm() < near)
+            .find(|&vertex| vertices(b).any(|other| other == vertex))
+    })?;
+    let away = other.boundary.ends().map(|t| (other.boundary.point(t) - place(joint)).norm());
+    let there = usize::from(away[1] < away[0]);
+    Some((there, away[there] < near))
 }
 
 /// Whether another contact of the same bodies begins at an end of Γ_C.
