@@ -142,7 +142,7 @@ fn gap_error(pressed: &[PressedPoint], force: f64, gap: impl Fn(&PressedPoint) -
 }
 
 /// Angle by which a side is turned where it presses, its mean weighted with λ (radians).
-pub fn mean_tilt(side: &SmoothSide, boundary: &ContactBoundary, points: &[[f64; 3]]) -> f64 {
+fn mean_tilt(side: &SmoothSide, boundary: &ContactBoundary, points: &[[f64; 3]]) -> f64 {
     let (mut sum, mut total) = (0.0, 0.0);
     for &[t, weight, _] in points {
         let foot = side.nearest(boundary.point(t), Configuration::Reference);

@@ -1,7 +1,7 @@
 //! How the force of a contact turns and moves with bodies that have rolled, slid or turned.
 
 use super::contact_boundary::ContactBoundary;
-use super::finite_motion::{feet, mean_tilt, pressed_places};
+use super::finite_motion::{feet, pressed_places};
 use super::multiplier::Multipliers;
 use super::pair::Configuration;
 use super::smooth_side::SmoothSide;
@@ -39,10 +39,10 @@ pub fn turned_force(
     let middle = points.iter().map(|&[t, weight, _]| weight / force * boundary.point(t)).sum();
     let pressed = sides.and_then(|sides| PressedSides::new(sides, boundary, &points));
     let (mut resistance, mut turned) = (Matrix3::zeros(), [Vector3::zeros(); 2]);
-    for &[t, weight, _] in &points {
+    for (at, &[t, weight, _]) in points.iter().enumerate() {
         let (x, normal) = (boundary.point(t), boundary.normal(t));
         let before = wrench(normal, x - middle);
-        let Some((common, moved)) = pressed.as_ref().and_then(|sides| sides.displaced(x, normal)) else {
+        let Some((common, moved)) = pressed.as_ref().map(|sides| sides.displaced(at, normal)) else {
             resistance += weight * before * before.transpose();
             continue;
         };
@@ -90,7 +90,8 @@ impl RigidSide<'_> {
 
 /// Both sides where they press.
 struct PressedSides<'a> {
-    sides: [&'a SmoothSide; 2],
+    /// Parameters of the places of both that correspond to each point of Γ_C.
+    feet: Vec<[f64; 2]>,
     moved: [RigidSide<'a>; 2],
     /// Share of each side's normal in the one that both have in common.
     shares: [f64; 2],
@@ -110,12 +111,15 @@ impl<'a> PressedSides<'a> {
         let force: f64 = points.iter().map(|[_, weight, _]| weight).sum();
         let moved = [0, 1].map(|k| {
             let [curve, after] = [Configuration::Reference, Configuration::Deformed].map(|which| sides[k].curve(which));
-            let mean = |value: &dyn Fn(f64) -> Point| {
-                points.iter().zip(&all).map(|([_, weight, _], feet)| *weight / force * value(feet[k])).sum::<Point>()
+            let pressed = || points.iter().zip(&all).map(|([_, weight, _], feet)| (*weight / force, feet[k]));
+            let about: Point = pressed().map(|(share, foot)| share * curve.point(foot)).sum();
+            let shift = pressed().map(|(share, foot)| share * after.point(foot)).sum::<Point>() - about;
+            let tilt = |foot: f64| {
+                let [from, to] = [curve, after].map(|curve| curve.tangent(foot));
+                cross(from, to).atan2(from.dot(&to))
             };
-            let about = mean(&|foot| curve.point(foot));
-            let shift = mean(&|foot| after.point(foot)) - about;
-            RigidSide { curve, about, shift, turn: Rotation2::new(mean_tilt(sides[k], boundary, points)) }
+            let turn = Rotation2::new(pressed().map(|(share, foot)| share * tilt(foot)).sum());
+            RigidSide { curve, about, shift, turn }
         });
         let ends = [all[0], all[all.len() - 1]];
         let bent = [0, 1].map(|k| {
@@ -128,13 +132,13 @@ impl<'a> PressedSides<'a> {
         let side = usize::from(b > a);
         let (angle, chord, normals) = bent[side];
         let round = (angle.abs() > FLAT).then(|| (side, cross(normals.normalize(), chord) / angle));
-        Some(Self { sides, moved, shares, round, length: chord.norm() })
+        Some(Self { feet: all, moved, shares, round, length: chord.norm() })
     }
 
     /// Normal that the displaced sides have in common where a point of Γ_C presses, and how far from the places of each body that have been
     /// in contact there. Flat sides press where they did.
-    fn displaced(&self, x: Point, normal: Point) -> Option<(Point, [Point; 2])> {
-        let feet = feet(self.sides, x, normal)?;
+    fn displaced(&self, at: usize, normal: Point) -> (Point, [Point; 2]) {
+        let feet = self.feet[at];
         let places = [0, 1].map(|k| self.moved[k].moved(self.moved[k].curve.point(feet[k])));
         let place = 0.5 * (places[0] + places[1]);
         let angle = |k: usize| {
@@ -142,10 +146,10 @@ impl<'a> PressedSides<'a> {
             cross(normal, own).atan2(normal.dot(&own))
         };
         let common = Rotation2::new(self.shares[0] * angle(0) + self.shares[1] * angle(1)) * normal;
-        let Some((side, radius)) = self.round else { return Some((common, [Point::zeros(); 2])) };
+        let Some((side, radius)) = self.round else { return (common, [Point::zeros(); 2]) };
         let way = radius * (common - self.moved[side].facing(feet[side], normal));
         let there = places[side] + way * (self.length / way.norm()).min(1.0);
-        Some((common, places.map(|place| there - place)))
+        (common, places.map(|place| there - place))
     }
 }
 

@@ -16,8 +16,8 @@ use nalgebra::{Matrix3, Vector3};
 /// Change of any error in a round, below which the rounds end: a thousandth of what is doubted. A row of bodies hands on ever less.
 const LITTLE: f64 = 1e-5;
 
-/// Rounds at most: as many as a row of some thirty bodies takes, each of which hands on half.
-const ROUNDS: usize = 1000;
+/// Rounds at most: what a row of ten bodies leaves then is a thousandth, each of which hands on half.
+const ROUNDS: usize = 100;
 
 /// For each contact what it takes up of forces and moments out of balance, by its own force; zero where nothing presses. `moments` is what
 /// the motion of the bodies has added to the moment of all that acts on each, where it acts on what the bodies are made of.
@@ -63,7 +63,7 @@ impl Framework {
     fn new(problem: &Discretisation, mut freedoms: Vec<Option<Freedom>>, forces: &[TurnedForce], moments: &[f64]) -> Self {
         // Springs count beside contacts, which are about as stiff as their bodies.
         let moduli = problem.contacts.iter().flat_map(|contact| &contact.multiplier_moduli).copied();
-        let stiffness = moduli.fold(0.0, f64::max);
+        let stiffness = moduli.fold(f64::MIN_POSITIVE, f64::max);
         freedoms.iter_mut().flatten().for_each(|freedom| freedom.springs /= stiffness);
         let strut = |(contact, own): (&Contact, &TurnedForce)| Strut {
             bodies: contact.bodies,
