@@ -42,8 +42,8 @@ pub struct Evaluation<'a> {
     pub penetrations: Vec<Penetration>,
     /// Stress at the nodes, as soon as somebody has asked for it.
     stress: OnceCell<NodalStress>,
-    /// For each contact whether a body could move without it, as soon as somebody has asked for it.
-    needed: OnceCell<Vec<bool>>,
+    /// For each contact whether a body could move without it.
+    needed: Vec<bool>,
 }
 
 impl<'a> Evaluation<'a> {
@@ -57,7 +57,8 @@ impl<'a> Evaluation<'a> {
         session.max(&mut moved);
         let balance = balance(problem, solution, &u, session)?;
         let (deformations, turns) = deformations(problem, &u, session)?;
-        let motions = motion_errors(problem, solution, &balance, (&deformations, &turns), session);
+        let needed = needed_contacts(problem, &solution.active, session);
+        let motions = motion_errors((problem, &needed), solution, &balance, (&deformations, &turns), session);
         let forces: Vec<f64> = balance.contacts.iter().map(|contact| contact.force).collect();
         let penetrations = penetrations(problem, solution, &forces, session);
         Ok(Self {
@@ -71,7 +72,7 @@ impl<'a> Evaluation<'a> {
             motions,
             penetrations,
             stress: OnceCell::new(),
-            needed: OnceCell::new(),
+            needed,
         })
     }
 
@@ -107,9 +108,8 @@ impl<'a> Evaluation<'a> {
     /// are the same on every rank. **Collective**
     pub fn shape_errors(&self, contact: usize, points: &[TracePoint]) -> Option<[f64; 2]> {
         let error = shape_error(&self.problem.contacts[contact], points)?;
-        let is_needed = || needed_contacts(self.problem, &self.solution.active, self.session);
         let ContactForce { force, resultants, .. } = &self.balance.contacts[contact];
-        let unset: f64 = if self.needed.get_or_init(is_needed)[contact] { 1.0 - resultants[1].norm() / force.abs() } else { 1.0 };
+        let unset: f64 = if self.needed[contact] { 1.0 - resultants[1].norm() / force.abs() } else { 1.0 };
         Some([error, error * unset.max(0.0)])
     }
 

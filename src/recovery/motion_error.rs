@@ -24,7 +24,7 @@ use super::slant::slant;
 use super::traces::TracePoint;
 use crate::body::RigidSet;
 use crate::contact::{Configuration, FiniteMotion, GapError, SmoothSide, Turn, TurnedForce, finite_motion, turned_force};
-use crate::discretisation::{BoundaryMotion, Contact, ContactPressure, Discretisation, Freedom, Solution, needed_contacts};
+use crate::discretisation::{BoundaryMotion, Contact, ContactPressure, Discretisation, Freedom, Solution};
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, MacroEdge, MacroMesh};
 use crate::petsc::Session;
@@ -61,10 +61,11 @@ pub struct MotionError {
     pub direction_error: f64,
 }
 
-/// For each contact what motions spoil; nothing where no body is strained. `turns` is the rotation of each macro triangle (radians).
+/// For each contact what motions spoil; nothing where no body is strained. Equilibrium sets the forces of contacts that are
+/// `needed`, and `turns` is the rotation of each macro triangle (radians).
 /// **Collective**
 pub fn motion_errors(
-    problem: &Discretisation,
+    (problem, needed): (&Discretisation, &[bool]),
     solution: &Solution,
     balance: &Balance,
     (bodies, turns): (&[Deformation], &[f64]),
@@ -73,10 +74,9 @@ pub fn motion_errors(
     let is_reference = |contact: &Contact| contact.pair.configuration == Configuration::Reference;
     let follows = |contact: &Contact| is_reference(contact) && contact.known.meeting.is_some();
     // What equilibrium sets is right whatever is left out, but the motion of a tool is off by all of that.
-    let needed = needed_contacts(problem, &solution.active, session);
     let is_set =
         |(contact, &needed): (&Contact, &bool)| needed && !is_between_tools(problem, contact, &|set| set.free().next().is_some());
-    let set: Vec<bool> = problem.contacts.iter().zip(&needed).map(is_set).collect();
+    let set: Vec<bool> = problem.contacts.iter().zip(needed).map(is_set).collect();
     let freedoms = Freedom::of_bodies(&problem.scene);
     let beside = |body: usize| problem.contacts.iter().filter(|contact| contact.bodies.contains(&body)).count() > 1;
     let turns_others =

@@ -1,6 +1,7 @@
 //! Sparse symmetric matrices of 3x3 blocks, a row for each piece: their factor, and what it says of a few rows.
 
 use nalgebra::{Cholesky, Const, DMatrix, DVector, Matrix3, SymmetricEigen, Vector3};
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Steps of the inverse iteration at most.
@@ -48,6 +49,8 @@ pub struct BlockFactor {
     columns: Vec<Vec<(usize, Matrix3<f64>)>>,
     /// Blocks of D, and their factors.
     pivots: Vec<(Matrix3<f64>, Cholesky<f64, Const<3>>)>,
+    /// Columns of `D^(-1/2) L⁻¹` by rows, as soon as somebody has asked for them: each is that of many contacts.
+    halves: Vec<OnceCell<Vec<(usize, Matrix3<f64>)>>>,
 }
 
 impl BlockFactor {
@@ -75,7 +78,8 @@ impl BlockFactor {
             columns.push(column);
             pivots.push((pivot, factor));
         }
-        Some(Self { place, columns, pivots })
+        let halves = vec![OnceCell::new(); order.len()];
+        Some(Self { place, columns, pivots, halves })
     }
 
     /// Number of unknowns.
@@ -127,13 +131,13 @@ impl BlockFactor {
     /// The rows of `A⁻¹` and their columns: `Wᵀ D⁻¹ W` with the columns of `W = L⁻¹`, which are nothing but on the way from the row
     /// to the last one, from each to the first block below it.
     pub fn compliance(&self, rows: &[usize]) -> DMatrix<f64> {
-        let halves: Vec<Vec<(usize, Matrix3<f64>)>> = rows.iter().map(|&row| self.half(row)).collect();
+        let halves: Vec<_> = rows.iter().map(|&row| self.halves[row].get_or_init(|| self.half(row))).collect();
         let mut all = DMatrix::zeros(3 * rows.len(), 3 * rows.len());
         for (i, left) in halves.iter().enumerate() {
             for (j, right) in halves[..=i].iter().enumerate() {
                 let mut sum = Matrix3::zeros();
                 let mut column = left.iter().peekable();
-                for (at, block) in right {
+                for (at, block) in right.iter() {
                     while column.next_if(|(other, _)| other < at).is_some() {}
                     if let Some((_, other)) = column.next_if(|(other, _)| other == at) {
                         sum += other.tr_mul(block);
