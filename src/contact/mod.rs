@@ -60,6 +60,6 @@ pub use placing::{Known, Placed, place};
 pub use pressure::{Roughness, Zone, faded_end, oscillation, recovered_peak, roughness, true_end, zone_counts};
 pub use sets::{ActiveSet, SetChange, SetSolution};
 pub use side::Side;
-pub use smooth_side::{Displacement, SmoothSide};
+pub use smooth_side::{APART, Displacement, SmoothSide};
 pub use trace::{EdgeOverlap, Trace, edge_overlaps, trace};
 pub use turned_force::{TurnedForce, turned_force, wrench};

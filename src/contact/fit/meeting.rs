@@ -234,9 +234,9 @@ fn why_apart(sides: &[Vec<SmoothSide>; 2], pair: &Pair) -> String {
         );
     }
     let remedy = match pair.gap {
-        GapChoice::Geometry => "move the bodies together, or give `gap` as a number or a formula",
+        GapChoice::Geometry => "move the bodies together, or give a smaller `gap`, a number or a formula",
         GapChoice::Closed => "move the bodies together: gap = \"closed\" says that they touch",
-        GapChoice::Formula(_) => "correct `gap`, or name boundaries that face each other",
+        GapChoice::Formula(_) => "give a smaller `gap`, or name boundaries that face each other",
     };
     format!(
         "curve = \"fit\", but the gap between \"{first}\" and \"{second}\" is wider than 6 % of their length everywhere, or they do not face each other; {remedy}"

@@ -8,6 +8,9 @@ use crate::geometry::Point;
 /// A contact that goes all around but for so many edges has no ends beside them.
 const BRIDGED_EDGES: f64 = 4.0;
 
+/// What may be done about several stretches that touch.
+const OF_ITS_OWN: &str = "give each a name and a contact of its own, or tell the curve of all by a [geometry]";
+
 /// Pieces that meet at a smaller angle (radians) are not split by a corner there.
 const JOINT: f64 = 0.3;
 
@@ -124,20 +127,23 @@ pub fn only_near_part<'a>(
     if touching.len() == 1 {
         return Ok(Some((stretch, *part)));
     }
-    let ([own, other], splits) = ([k, 1 - k].map(|k| &pair.between[k]), what_splits(&sides[k], &touching));
-    let remedy = "give each a name and a contact of its own, or tell the curve of all by a [geometry]";
-    Err(format!("\"{own}\" {splits} touch \"{other}\"; {remedy}"))
+    let [own, other] = [k, 1 - k].map(|k| &pair.between[k]);
+    let (splits, remedy) = what_splits(&sides[k], &touching);
+    Err(format!("\"{own}\" {splits} touch \"{other}\"; {OF_ITS_OWN}{remedy}"))
 }
 
-/// Why the stretches of a boundary that touch are several, in words between its name and "touch".
-fn what_splits(sides: &[SmoothSide], touching: &[usize]) -> String {
+/// Why the stretches of a boundary that touch are several, in words between its name and "touch", and what else may be done.
+fn what_splits(sides: &[SmoothSide], touching: &[usize]) -> (String, &'static str) {
     let others = |k: usize| (0..sides.len()).filter(move |&other| other != k).map(move |other| (k, other));
     let turns = touching.iter().flat_map(|&k| others(k)).filter_map(|(k, other)| corner(&sides[k], &sides[other]));
     let count = touching.len();
     match turns.reduce(f64::max) {
-        None => format!("is of pieces that do not hang together, {count} of which"),
-        Some(turn) if turn < JOINT => format!("is of pieces with different shapes, {count} of which"),
-        Some(_) => format!("has corners of more than 20 degrees, and {count} of its smooth stretches"),
+        None => (format!("is of pieces that do not hang together, {count} of which"), ""),
+        Some(turn) if turn < JOINT => (
+            format!("is of pieces with different shapes, {count} of which"),
+            "; if they are one curve, mesh it finer where they meet",
+        ),
+        Some(_) => (format!("has corners of more than 20 degrees, and {count} of its smooth stretches"), ""),
     }
 }
 
