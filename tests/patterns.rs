@@ -205,7 +205,8 @@ fn a_pattern_passes_over_short_sides_that_lie_apart() {
     let bodies = ["a", "b", "c"].into_iter().zip([-10.0, 0.0, 10.5]).zip(sides);
     let mesh = Mesh { bodies: bodies.map(|((name, from), sides)| (name, bar(from), sides)).collect() };
     let folder = tempfile::tempdir().expect("a temporary folder");
-    for (gap, wanted) in [("", "1 contact: all.a.end.b.root"), (", gap = 0.0", "2 contacts: all.a.end.b.root, all.b.end.c.root")] {
+    for (gap, wanted) in [("", "1 contact: all.a.end.b.root"), (", gap = 0.0", "2 contacts: all.a.end.b.root, all.b.end.c.root")]
+    {
         let case = format!(
             "mesh = {{ file = \"mesh.msh\" }}
              body.\"*\" = {{ young = 1.0, poisson = 0.3 }}

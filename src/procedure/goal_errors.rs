@@ -6,7 +6,7 @@ use crate::discretisation::{Contact, Discretisation, Field, SystemError, needed_
 use crate::procedure::estimates::AtEnds;
 use crate::procedure::settings::Procedure;
 use crate::procedure::solved::Solved;
-use crate::recovery::{cut_at_joint, trace_points, unresolved_force};
+use crate::recovery::{smooth_joints, trace_points, unresolved_force};
 
 /// Error of λ above which it is not known where it presses.
 const MOST_UNKNOWN: f64 = 0.08;
@@ -117,7 +117,7 @@ impl Procedure<'_> {
         let off = unresolved_force(contact, &points, 0.0);
         let is_within_segments = off > WORTH_WITHIN_SEGMENTS * own && HERTZ_BY_UNRESOLVED * off > least;
         let has_few_edges = pressure.has_few_edges(least);
-        let is_cut = cut_at_joint(at, problem, solution) > CUT;
+        let is_cut = smooth_joints(at, problem, solution).cut > CUT;
         Ok(is_cut || is_within_segments || has_few_edges && pressure.is_too_narrow(&problem.scene.mesh, &points, least))
     }
 

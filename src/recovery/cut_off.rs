@@ -111,28 +111,43 @@ fn turn_at_end(contact: &Contact, mesh: &MacroMesh, side: usize, end: usize) -> 
     around.iter().find(|found| Some(found.vertex) == last).map(|found| found.angle - PI)
 }
 
-/// λ beside an end of a contact where another one of the same bodies begins and both bodies go on smoothly, by the largest λ of the zone, if
-/// only one of the two presses there: the other one is missed, however small. A flat of a crowned punch had 30 for 27.8, and 1.1 was missed
-/// on either side. 0 if there is no such end.
-pub fn cut_at_joint(at: usize, problem: &Discretisation, solution: &Solution) -> f64 {
+/// Ends of a contact where another one of the same bodies begins, and both bodies go on smoothly.
+#[derive(Default)]
+pub struct SmoothJoints {
+    /// λ where one of the two presses alone, by the largest λ of the zone: the other one is missed, however small. A flat of a crowned
+    /// punch had 30 for 27.8, and 1.1 was missed on either side. 0 if there is no such end.
+    pub cut: f64,
+    /// The contacts that press there, too: they share a force with this one.
+    pub shared: Vec<usize>,
+}
+
+/// The smooth joints of contact `at` with others.
+pub fn smooth_joints(at: usize, problem: &Discretisation, solution: &Solution) -> SmoothJoints {
     let (all, mesh) = (&problem.contacts, &problem.scene.mesh);
     let height = |contact: &Contact, end: usize| {
         let pressure = solution.pressure(contact);
         pressure.zones().iter().filter(|zone| zone.is_at_end[end]).map(|zone| pressure.height(zone, end)).fold(0.0, f64::max)
     };
-    let cut = |contact: &Contact, end: usize, other: &Contact| {
+    let heights = |contact: &Contact, end: usize, other: &Contact| {
         let (there, is_near) = going_on(contact, end, other, mesh)?;
-        if !goes_on(contact, mesh, end) && !goes_on(other, mesh, there) {
-            return None;
-        }
-        let heights = [height(contact, end), if is_near { height(other, there) } else { 0.0 }];
-        heights.iter().any(|height| *height <= 0.0).then_some(heights[0].max(heights[1]))
+        let is_smooth = goes_on(contact, mesh, end) || goes_on(other, mesh, there);
+        is_smooth.then(|| [height(contact, end), if is_near { height(other, there) } else { 0.0 }])
     };
     let own = &all[at];
-    let others = all.iter().filter(|other| other.first != own.first && other.bodies.iter().all(|body| own.bodies.contains(body)));
-    // Γ_C of one that does not press may begin farther off.
-    let joints = others.flat_map(|other| [(own, 0, other), (own, 1, other), (other, 0, own), (other, 1, own)]);
-    joints.filter_map(|(contact, end, other)| cut(contact, end, other)).fold(0.0, f64::max)
+    let is_beside = |other: &&Contact| other.first != own.first && other.bodies.iter().all(|body| own.bodies.contains(body));
+    let mut joints = SmoothJoints::default();
+    for (k, other) in all.iter().enumerate().filter(|(_, other)| is_beside(other)) {
+        // Γ_C of one that does not press may begin farther off.
+        let ends = [(own, 0, other), (own, 1, other), (other, 0, own), (other, 1, own)];
+        for [here, there] in ends.into_iter().filter_map(|(contact, end, other)| heights(contact, end, other)) {
+            match here > 0.0 && there > 0.0 {
+                true => joints.shared.push(k),
+                false => joints.cut = joints.cut.max(here.max(there)),
+            }
+        }
+    }
+    joints.shared.dedup();
+    joints
 }
 
 /// Whether sides of another contact go on from a vertex at an end of Γ_C: with which of its ends, and whether its Γ_C begins there.

@@ -3,7 +3,7 @@
 use super::balance::{Balance, balance};
 use super::contact_forces::ContactForce;
 use super::corners::{Corners, corners};
-use super::cut_off::cut_at_joint;
+use super::cut_off::{SmoothJoints, smooth_joints};
 use super::deformation::{Deformation, deformations};
 use super::end_slip::{EndSlip, slip_at_ends};
 use super::motion_error::{MotionError, growth_by_gap, motion_errors};
@@ -93,9 +93,9 @@ impl<'a> Evaluation<'a> {
         slip_at_ends((&all[contact], all), &self.problem.scene.mesh, (zones, points), force)
     }
 
-    /// λ at a smooth joint with another contact where only one of both presses, by the largest.
-    pub fn cut_at_joint(&self, contact: usize) -> f64 {
-        cut_at_joint(contact, self.problem, self.solution)
+    /// Where another contact goes on smoothly from one.
+    pub fn smooth_joints(&self, contact: usize) -> SmoothJoints {
+        smooth_joints(contact, self.problem, self.solution)
     }
 
     /// Corners of the bodies of a contact within `zones`: the arcs that press.

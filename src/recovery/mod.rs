@@ -43,7 +43,7 @@ pub use balance::Balance;
 pub use cell_energies::cell_energies;
 pub use contact_forces::ContactForce;
 pub use corners::Corners;
-pub use cut_off::cut_at_joint;
+pub use cut_off::smooth_joints;
 pub use deformation::Deformation;
 pub use evaluation::Evaluation;
 pub use heat::{HeatEnergy, heat_energies};

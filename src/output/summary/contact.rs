@@ -59,6 +59,8 @@ pub struct ContactSummary {
     pub direction_error: Option<f64>,
     /// λ where another contact goes on smoothly from this one and only one of both presses, by its largest; 0 elsewhere.
     pub cut_at_joint: Option<f64>,
+    /// The contacts that go on smoothly from it, and press where they meet, too.
+    pub shares_with: Vec<String>,
     /// Sharpest corner of a body within what presses, in degrees; of fitted curves only.
     pub corner_angle: Option<f64>,
     /// Estimated relative error of λ by that corner.
@@ -190,8 +192,8 @@ impl ZoneSummary {
 pub struct ContactEstimate {
     /// Of ∫ λ ds.
     pub force: Option<f64>,
-    /// Of λ in the middle of its worst zone, root mean square.
+    /// Of λ in the middle of its worst zone, root mean square, with what nobody knows of the shapes of the sides.
     pub lambda: Option<f64>,
-    /// Of the largest λ; null where that is singular.
+    /// Of the largest λ, with the same; null where that is singular.
     pub peak: Option<f64>,
 }

@@ -21,6 +21,7 @@ use crate::case::Case;
 use crate::contact::{Pair, SegmentRule};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ContactTrust};
+use crate::run::verdict::limits::TRUSTED_FORCE;
 use contact::verdict;
 use remedies::Mended;
 use std::collections::BTreeMap;
@@ -42,7 +43,8 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
         let contact = summary.contact.get(&pair.name)?;
         Some((pair.name.clone(), verdict(summary, contact, Mended { pair: &pair, case, refinements }, converged)))
     });
-    let verdicts: BTreeMap<String, Verdict> = judged.collect();
+    let mut verdicts: BTreeMap<String, Verdict> = judged.collect();
+    distrust_shared_forces(&mut verdicts, summary);
     for (name, contact) in &mut summary.contact {
         contact.judged = verdicts.get(name).map(Verdict::trust).unwrap_or_default();
         let singular = contact.singular_words().filter(|_| contact.judged.verdict.as_deref() == Some(TRUSTED));
@@ -54,6 +56,21 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
     let doubts = clauses(&names, &verdicts, |verdict| &verdict.doubts);
     let unknown = clauses(&names, &verdicts, |verdict| verdict.unknown.as_slice());
     Judgement { unreliable: (!doubts.is_empty()).then(|| doubts.join("; ")), unknown }
+}
+
+/// What a contact that goes on smoothly from another one lacks that one has: a force that is not trusted leaves none on the other side
+/// of the joint, unless it is next to nothing beside it.
+fn distrust_shared_forces(verdicts: &mut BTreeMap<String, Verdict>, summary: &Summary) {
+    let is_sure = |name: &String| verdicts.get(name).is_none_or(|verdict| verdict.trust_force == Some(true));
+    let force = |name: &String| summary.contact.get(name).and_then(|contact| contact.force).unwrap_or(0.0);
+    let counts = |name: &String, other: &String| force(other) > TRUSTED_FORCE * force(name);
+    let shares =
+        |name: &String, contact: &ContactSummary| contact.shares_with.iter().any(|other| counts(name, other) && !is_sure(other));
+    let shared: Vec<&String> =
+        summary.contact.iter().filter(|(name, contact)| shares(name, contact)).map(|(name, _)| name).collect();
+    for name in shared {
+        verdicts.entry(name.clone()).and_modify(|verdict| verdict.trust_force = verdict.trust_force.map(|_| false));
+    }
 }
 
 /// Leaves no contact trusted, of a run that is not resolved, or that has not converged though its solve has.

@@ -287,12 +287,16 @@ fn bodies_out_of_balance_are_nothing_to_trust() {
     assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains("out of balance by 0.03"), "{found:?}");
 }
 
-/// A scene of so many contacts: that of number `k` carries `force(k)`, on zones of so many edges.
-fn scene(count: usize, force: impl Fn(usize) -> f64, edges: impl Fn(usize) -> f64, settings: &[&str]) -> (Summary, Judgement) {
+/// [`CASE`] with so many contacts, after some overrides.
+fn case_of(count: usize, settings: &[&str]) -> Case {
     let contacts: String =
         (0..count).map(|k| format!("contact.c{k} = {{ between = [\"lower.s{k}\", \"upper.s{k}\"] }}\n")).collect();
-    let text = CASE.replace("contact.seam = { between = [\"lower.seam\", \"upper.seam\"] }\n", &contacts);
-    let case = parsed(&text, settings);
+    parsed(&CASE.replace("contact.seam = { between = [\"lower.seam\", \"upper.seam\"] }\n", &contacts), settings)
+}
+
+/// A scene of so many contacts: that of number `k` carries `force(k)`, on zones of so many edges.
+fn scene(count: usize, force: impl Fn(usize) -> f64, edges: impl Fn(usize) -> f64, settings: &[&str]) -> (Summary, Judgement) {
+    let case = case_of(count, settings);
     let mut summary = Summary::default();
     for k in 0..count {
         let zones = vec![ZoneSummary { edges: Some(edges(k)), ..zone() }];
@@ -383,4 +387,24 @@ fn a_force_on_one_or_two_segments_is_trusted_where_it_is_known_far_better() {
         judged(true, change, &[]).1
     };
     assert_eq!([trusted(3, 5.5e-3), trusted(2, 5.5e-3), trusted(2, 1e-3)], [true, false, true].map(Some));
+}
+
+/// What a contact lacks beside a smooth joint the other one has: 7401 of a true 7177 was trusted beside 1300 for 1412.
+#[test]
+fn a_force_that_goes_on_in_another_contact_is_trusted_with_that_ones_only() {
+    let (mut summary, _) = scene(3, |_| 1.0, |_| 8.0, &[]);
+    let trusted = |summary: &Summary| ["c0", "c1", "c2"].map(|name| summary.contact[name].judged.trust_force);
+    let estimates = [("c0", 1e-3), ("c1", 0.03), ("c2", 1e-3)];
+    for (name, error) in estimates {
+        summary.estimate.contact.insert(name.into(), ContactEstimate { force: Some(error), ..ContactEstimate::default() });
+    }
+    let case = case_of(3, &[]);
+    for (shares_with, force, wanted) in [(&[][..], 1.0, true), (&["c1"], 1.0, false), (&["c1"], 5e-3, true), (&["c2"], 1.0, true)]
+    {
+        let contact = summary.contact.get_mut("c0").expect("it is there");
+        contact.shares_with = shares_with.iter().map(ToString::to_string).collect();
+        summary.contact.get_mut("c1").expect("it is there").force = Some(force);
+        judge(&mut summary, &case, true);
+        assert_eq!(trusted(&summary), [wanted, false, true].map(Some), "{shares_with:?}, {force}");
+    }
 }
