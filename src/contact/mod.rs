@@ -49,8 +49,8 @@ pub use drawn::{ClosePair, CloseSide, DrawnGap, Facing, WIDEST_TURN, close_pairs
 pub use finite_motion::{FiniteMotion, GapError, Turn, finite_motion};
 pub use fit::{Meeting, PointContact, hertz_width, point_contact, swings};
 pub use holding::{
-    Condition, Extent, Mechanism, Programme, ProgrammeOutcome, Touch, added_up, describe_motion, find_mechanism, needed_contacts,
-    tidy,
+    Condition, Extent, Mechanism, Programme, ProgrammeOutcome, Touch, added_up, describe_motion, find_mechanism, is_resisted,
+    needed_contacts, tidy,
 };
 pub use jump_term::{Jump, SparseRows, jump_matrix, jumps};
 pub use multiplier::{DiagonalBlock, Multipliers};

@@ -158,13 +158,15 @@ fn going_on(contact: &Contact, end: usize, other: &Contact, mesh: &MacroMesh) ->
     let vertices = |side: &String| mesh.edges_of(side).iter().flat_map(|&edge| mesh.edges[edge as usize].vertices);
     let place = |vertex: u32| mesh.vertices[vertex as usize];
     let [own, others] = [contact, other].map(|contact| &contact.pair.between);
-    // A side that both have goes on anywhere.
-    let mut apart = own.iter().flat_map(|a| others.iter().map(move |b| (a, b))).filter(|(a, b)| a != b);
-    let joint = apart.find_map(|(a, b)| {
+    // A side that both have goes on anywhere; of two quarters of a circle in four of another one, one may end and the other not.
+    let common = |a: &String, b: &String| {
         vertices(a)
             .filter(|&vertex| (place(vertex) - here).norm() < near)
             .find(|&vertex| vertices(b).any(|other| other == vertex))
-    })?;
+    };
+    let apart = own.iter().filter(|a| !others.contains(a));
+    let joints: Option<Vec<u32>> = apart.map(|a| others.iter().find_map(|b| common(a, b))).collect();
+    let joint = *joints?.first()?;
     let away = other.boundary.ends().map(|t| (other.boundary.point(t) - place(joint)).norm());
     let there = usize::from(away[1] < away[0]);
     Some((there, away[there] < near))

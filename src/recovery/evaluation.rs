@@ -6,6 +6,7 @@ use super::corners::{Corners, corners};
 use super::cut_off::{SmoothJoints, smooth_joints};
 use super::deformation::{Deformation, deformations};
 use super::end_slip::{EndSlip, slip_at_ends};
+use super::held_force::held_forces;
 use super::motion_error::{MotionError, growth_by_gap, motion_errors};
 use super::overlaps::penetrations;
 use super::overlaps::{missing_beyond, missing_force, unresolved_force};
@@ -44,6 +45,8 @@ pub struct Evaluation<'a> {
     stress: OnceCell<NodalStress>,
     /// For each contact whether a body could move without it.
     needed: Vec<bool>,
+    /// For each contact what held mean motions take from it.
+    pub held_forces: Vec<f64>,
 }
 
 impl<'a> Evaluation<'a> {
@@ -59,6 +62,7 @@ impl<'a> Evaluation<'a> {
         let (deformations, turns) = deformations(problem, &u, session)?;
         let needed = needed_contacts(problem, &solution.active, session);
         let motions = motion_errors((problem, &needed), solution, &balance, (&deformations, &turns), session);
+        let held_forces = held_forces(problem, solution, &balance, session);
         let forces: Vec<f64> = balance.contacts.iter().map(|contact| contact.force).collect();
         let penetrations = penetrations(problem, solution, &forces, session);
         Ok(Self {
@@ -73,6 +77,7 @@ impl<'a> Evaluation<'a> {
             penetrations,
             stress: OnceCell::new(),
             needed,
+            held_forces,
         })
     }
 

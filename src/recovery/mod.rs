@@ -26,6 +26,7 @@ mod end_slip;
 mod error_norm;
 mod evaluation;
 mod heat;
+mod held_force;
 mod motion_error;
 mod node_sums;
 mod overlaps;

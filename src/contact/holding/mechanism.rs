@@ -125,6 +125,18 @@ pub fn needed_contacts(pieces: &[Extent], supports: &[Condition], contacts: &[To
     Holding::new(pieces, supports, contacts).needed()
 }
 
+/// Whether supports and closed contacts resist a force on a piece, with its moment about the middle by the radius, whichever body's
+/// normals count.
+pub fn is_resisted(pieces: &[Extent], supports: &[Condition], contacts: &[Touch], piece: usize, wrench: [f64; 3]) -> bool {
+    let holding = Holding::new(pieces, supports, contacts);
+    let mut load = DVector::zeros(3 * pieces.len());
+    load.fixed_rows_mut::<3>(3 * piece).copy_from(&Vector3::from(wrench).normalize());
+    let moves = |choice: &NormalChoice| Some(load.dot(&holding.factor(choice, None)?.solve(&load)));
+    // What is held by h of a unit motion gives way by 1/h² at most.
+    let most = LEAST_HOLD.powi(-2);
+    holding.bases(&holding.curved()).iter().all(|choice| moves(choice).is_some_and(|moved| moved < most))
+}
+
 /// For each contact the body whose normals count.
 type NormalChoice = Vec<usize>;
 

@@ -4,5 +4,5 @@ mod block_factor;
 mod mechanism;
 mod programme;
 
-pub use mechanism::{Condition, Extent, Mechanism, Touch, describe_motion, find_mechanism, needed_contacts, tidy};
+pub use mechanism::{Condition, Extent, Mechanism, Touch, describe_motion, find_mechanism, is_resisted, needed_contacts, tidy};
 pub use programme::{Programme, ProgrammeOutcome, added_up};

@@ -13,7 +13,7 @@ use crate::discretisation::levels::Discretisation;
 use crate::discretisation::motions::free_motion::FreeMotion;
 use crate::discretisation::scene::Scene;
 use crate::element::{Order, Plane};
-use crate::geometry::{AXES, Point};
+use crate::geometry::{AXES, Point, cross};
 use crate::mesh::{Level, MacroMesh, Numbering, SmoothNormals, each_once};
 use crate::petsc::Session;
 use std::collections::{HashMap, HashSet};
@@ -24,6 +24,16 @@ const ALIKE: f64 = 0.99;
 
 /// Stiffness of springs by Young's modulus of their body below which equilibrium sets the force of a contact beside them, to a hundredth.
 const FIRM: f64 = 1e-2;
+
+/// What a mean motion is held against.
+pub struct HeldLoad<'a> {
+    /// The hold.
+    pub hold: &'a MeanHold,
+    /// Force per thickness.
+    pub force: Point,
+    /// Moment about the middle of the body (force).
+    pub moment: f64,
+}
 
 /// Words for a body that neither supports nor the active multipliers hold; nothing if all are held. **Collective**
 pub fn not_held(problem: &Discretisation, active: &[bool], session: &Session) -> Option<String> {
@@ -69,6 +79,26 @@ pub fn needed_contacts(problem: &Discretisation, active: &[bool], session: &Sess
     let mut held = support_conditions(&problem.scene, &extents);
     held.extend(spring_conditions(&problem.scene, &extents, FIRM));
     contact::needed_contacts(&extents, &held, &whole.touches(&extents, active))
+}
+
+/// For each force that a mean motion is held against, with its moment about the middle of the body, whether the other supports and closed
+/// contact resist it. **Collective**
+pub fn are_resisted(problem: &Discretisation, active: &[bool], loads: &[HeldLoad], session: &Session) -> Vec<bool> {
+    if loads.is_empty() {
+        return Vec::new();
+    }
+    let (scene, extents) = (&problem.scene, problem.scene.extents());
+    let touches = Restraints::of(problem, session).touches(&extents, active);
+    let springs = spring_conditions(scene, &extents, FIRM);
+    let is_resisted = |HeldLoad { hold, force, moment }: &HeldLoad| {
+        let piece = scene.mesh.pieces.iter().position(|piece| scene.mesh.bodies[piece.body] == hold.body)?;
+        let mut others = conditions_with(scene, &extents, |other| other.name != hold.name);
+        others.extend(&springs);
+        let moment = moment + cross(hold.middle - extents[piece].middle, *force);
+        let wrench = [force.x, force.y, moment / extents[piece].radius];
+        Some(contact::is_resisted(&extents, &others, &touches, piece, wrench))
+    };
+    loads.iter().map(|load| is_resisted(load).unwrap_or(false)).collect()
 }
 
 /// Of the open multipliers those that hold every body if they close: for one motion after the other that nothing holds, the one with
@@ -235,6 +265,11 @@ fn holding_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
 
 /// Everything that supports hold, at the macro vertices.
 pub fn support_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
+    conditions_with(scene, extents, |_| true)
+}
+
+/// Everything that supports hold, of mean motions those that count.
+fn conditions_with(scene: &Scene, extents: &[Extent], counts: impl Fn(&MeanHold) -> bool) -> Vec<Condition> {
     let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, &scene.partition);
     let along_normals = scene.supports.iter().filter(|support| support.normal.is_some());
     let normals = mean_normals(&scene.mesh, along_normals.map(|support| scene.mesh.edges_on(&support.on).collect()));
@@ -247,12 +282,12 @@ pub fn support_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
     let free = scene.rigid.iter().filter(|set| set.free().next().is_some());
     let rigid = free.flat_map(|set| rigid_conditions(scene, set, extents)).chain(revolution_conditions(scene));
     let held = supported(scene, &numbering, &[]).into_iter().filter_map(condition);
-    held.chain(mean_conditions(scene, extents)).chain(rigid).collect()
+    held.chain(mean_conditions(scene, extents, counts)).chain(rigid).collect()
 }
 
 /// The mean motions that are held: a turn about the middle of a body, or the shift of that. Anchors would hold a turn as far as the body
 /// does not shift.
-fn mean_conditions(scene: &Scene, extents: &[Extent]) -> impl Iterator<Item = Condition> {
+fn mean_conditions(scene: &Scene, extents: &[Extent], counts: impl Fn(&MeanHold) -> bool) -> impl Iterator<Item = Condition> {
     let mesh = &scene.mesh;
     let of_hold = |hold: &MeanHold| {
         let piece = mesh.pieces.iter().position(|piece| mesh.bodies[piece.body] == hold.body);
@@ -262,7 +297,7 @@ fn mean_conditions(scene: &Scene, extents: &[Extent]) -> impl Iterator<Item = Co
         };
         hold.held.iter().filter_map(condition).collect::<Vec<_>>()
     };
-    scene.means.iter().flat_map(of_hold)
+    scene.means.iter().filter(move |hold| counts(hold)).flat_map(of_hold)
 }
 
 /// The motions that no body of revolution has: shifts across the axis, and turns.

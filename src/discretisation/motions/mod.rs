@@ -9,6 +9,8 @@ mod rigid_motion;
 mod rigid_start;
 
 pub use freedom::Freedom;
-pub use held::{adrift, few_that_hold, free_motion_if_closed, needed_contacts, not_held, not_held_if_closed};
+pub use held::{
+    HeldLoad, adrift, are_resisted, few_that_hold, free_motion_if_closed, needed_contacts, not_held, not_held_if_closed,
+};
 pub use rigid_motion::{rigid_motions, settle};
 pub use rigid_start::rigid_start;

@@ -68,7 +68,7 @@ fn keys_are_the_names_that_other_tools_rely_on() {
         ("/outer/0", "active added boundary du iteration krylov_iterations max_penetration released residual"),
         (
             "/contact/seam",
-            "approach closed closed_edges closed_points corner_angle corner_error cut_at_joint deepest depth direction_error ends force h_ratio inf_sup length lost_at_ends lost_points missing missing_beyond missing_force moment multiplier oscillation place pressure_max resultant rotation_error segments shape_error shape_error_force shares_with slant slip slip_at_ends slip_error trust trust_force unresolved_force verdict zones",
+            "approach closed closed_edges closed_points corner_angle corner_error cut_at_joint deepest depth direction_error ends force h_ratio held_force inf_sup length lost_at_ends lost_points missing missing_beyond missing_force moment multiplier oscillation place pressure_max resultant rotation_error segments shape_error shape_error_force shares_with slant slip slip_at_ends slip_error trust trust_force unresolved_force verdict zones",
         ),
         (
             "/contact/seam/zones/0",

@@ -55,6 +55,7 @@ pub fn contact(solved: &Solved, found: &Evaluation, at: usize, points: &[TracePo
         rotation_error: motion.map(|motion| motion.rotation_error).or_else(growth),
         slant: motion.map(|motion| motion.slant),
         direction_error: motion.map(|motion| motion.direction_error),
+        held_force: Some(found.held_forces[at]),
         cut_at_joint: Some(joints.cut),
         shares_with: joints.shared.into_iter().map(|other| problem.contacts[other].pair.name.clone()).collect(),
         corner_angle: corners.as_ref().map(|corners| corners.angle.to_degrees()),

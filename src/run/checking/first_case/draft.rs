@@ -1,7 +1,7 @@
 //! The text of a first case.
 
 use super::guesses::{Guesses, POISSON, Press, Weight, YOUNG};
-use super::named_curve::{LOADED, MIRRORED, NamedCurve, PULLED};
+use super::named_curve::{LOADED, NamedCurve, PULLED};
 use crate::contact::ClosePair;
 use crate::run::checking::node_circle::NodeCircle;
 use crate::run::checking::proposals::{MeanProposal, TableNames, contact_table, digits, key, quoted, short};
@@ -37,7 +37,6 @@ impl Draft<'_> {
         self.contacts(&mut text);
         self.tools(&mut text);
         self.supports(&mut text, &mut tables);
-        self.guides(&mut text, &weights, &mut tables);
         if weights.is_empty() || self.guesses.pressed().is_some() {
             self.load(&mut text, press);
         }
@@ -188,7 +187,7 @@ order = 2
     }
 
     fn supports(&self, text: &mut String, tables: &mut TableNames) {
-        for curve in self.guesses.curves.iter().filter(|curve| curve.has(MIRRORED) && !curve.is_touched) {
+        for curve in self.guesses.curves.iter().filter(|curve| curve.is_mirrored() && !curve.is_touched) {
             let (name, own) = (tables.fresh(curve.name), quoted(curve.name));
             let _ = write!(text, "\n[support.{name}]       # a line of symmetry, by its name\non = {own}\nnormal = 0.0\n");
         }
@@ -199,21 +198,10 @@ order = 2
         }
         if let Some((body, motions)) = self.guesses.foundation() {
             *text += "\n# No named boundary looks like one that is held, so the mean motion of the lowest body is. That carries the load all over\n# the body; where it stands on something, name that line in the mesh, hold it, and leave this out.\n";
-            *text += &self.mean_hold(body, motions, tables);
+            let body = &self.guesses.mesh.bodies[body];
+            let hold = MeanProposal { name: tables.fresh(&format!("{body}-still")), body: body.clone(), moves: motions };
+            *text += &hold.table("");
         }
-    }
-
-    /// What keeps bodies that rest on others from rolling away: the load of the example does not drive these motions.
-    fn guides(&self, text: &mut String, weights: &[Weight], tables: &mut TableNames) {
-        for (body, motions) in weights.iter().filter_map(|weight| Some((weight.body, weight.guided?))) {
-            *text += "\n# The body rests on others, which may not keep it from sliding or rolling away; its load does not drive that.\n";
-            *text += &self.mean_hold(body, motions, tables);
-        }
-    }
-
-    fn mean_hold(&self, body: usize, motions: [bool; 3], tables: &mut TableNames) -> String {
-        let name = &self.guesses.mesh.bodies[body];
-        MeanProposal { name: tables.fresh(&format!("{name}-still")), body: name.clone(), moves: motions }.table("")
     }
 
     fn load(&self, text: &mut String, press: Press) {
@@ -298,7 +286,7 @@ angle = 0.0               # and does not turn
         let body_of = |table: &str| cut_off.iter().find(|body| table.contains(&format!("body = {body}")));
         let (unheld, others): (Vec<&String>, Vec<&String>) = supports.iter().partition(|table| body_of(table).is_some());
         if !others.is_empty() {
-            *text += "\n# Nothing else holds these motions; put what you mean in their place.\n";
+            *text += "\n# Neither supports nor contact hold these motions, and the load of the example does not drive them; put what you mean in their place.\n";
             *text += &others.iter().map(|table| table.as_str()).collect::<Vec<_>>().join("\n");
         }
         for table in &unheld {

@@ -1,6 +1,6 @@
 //! What a mesh is likely meant to be: what is held, what is pressed, what touches.
 
-use super::named_curve::{ALONG, LOADED, MIRRORED, NamedCurve, PULLED};
+use super::named_curve::{ALONG, LOADED, NamedCurve, PULLED};
 use crate::contact::{ClosePair, close_pairs};
 use crate::geometry::{Point, cross};
 use crate::mesh::{Boundary, MacroMesh};
@@ -50,8 +50,6 @@ pub struct Weight {
     pub body: usize,
     /// Force per area, downwards.
     pub force: f64,
-    /// Mean motions that are held, so that it does not roll away: the example does not drive them.
-    pub guided: Option<[bool; 3]>,
 }
 
 /// A mesh and what is guessed of it.
@@ -100,7 +98,7 @@ impl<'a> Guesses<'a> {
 
     /// Boundaries without contact and not of symmetry.
     fn free(&self) -> impl Iterator<Item = &NamedCurve<'a>> {
-        self.curves.iter().filter(|curve| !curve.is_touched && !curve.has(MIRRORED))
+        self.curves.iter().filter(|curve| !curve.is_touched && !curve.is_mirrored())
     }
 
     /// The boundaries that are held: of each body one that says so by its name, or else the lowest of all that look down. Where that would
@@ -136,7 +134,7 @@ impl<'a> Guesses<'a> {
 
     /// Those of some mean motions of a body that its lines of symmetry leave free; nothing if none is, or if it has no mean motion.
     fn unresisted(&self, body: usize, mut motions: [bool; 3]) -> Option<[bool; 3]> {
-        let mirrored = self.curves.iter().filter(|curve| curve.has(MIRRORED) && !curve.is_touched);
+        let mirrored = self.curves.iter().filter(|curve| curve.is_mirrored() && !curve.is_touched);
         let edges = mirrored.filter_map(|curve| self.mesh.boundary(curve.name)).flat_map(|boundary| &boundary.edges);
         for &edge in edges.filter(|&&edge| self.mesh.body_beside(edge) == body) {
             let normal = self.mesh.edge_normal(edge, 0.5);
@@ -205,7 +203,7 @@ impl<'a> Guesses<'a> {
     }
 
     /// Bodies that rest on others and would lie loose there, since nothing presses them: neither a boundary nor a body that is
-    /// higher. To each an example of a force per area that presses it down, and those mean motions that this leaves free.
+    /// higher. To each an example of a force per area that presses it down.
     pub fn weights(&self) -> Vec<Weight> {
         if self.is_pressed_in() {
             return Vec::new();
@@ -224,13 +222,7 @@ impl<'a> Guesses<'a> {
             partners.peek().is_some() && !partners.any(|other| !bases.contains(&other) && is_higher(body, other))
         };
         let loose = (0..self.mesh.bodies.len()).filter(|&body| !bases.contains(&body) && Some(body) != pressed).filter(rests);
-        loose
-            .map(|body| Weight {
-                body,
-                force: one_digit(PRESSED * YOUNG * self.narrowest() / self.area(body)),
-                guided: self.unresisted(body, [true, false, true]),
-            })
-            .collect()
+        loose.map(|body| Weight { body, force: one_digit(PRESSED * YOUNG * self.narrowest() / self.area(body)) }).collect()
     }
 
     /// The force of the example on a boundary, for each length of thickness.

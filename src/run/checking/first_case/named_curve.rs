@@ -10,13 +10,16 @@ pub const HELD: &str =
     "bottom base fixed fix clamp clamped ground floor foot foundation support wall root grip hold held mount anchor encastre";
 pub const LOADED: &str = "top load loaded press pressed pressure force punch push piston pull pulled tension drag lift traction";
 pub const PULLED: &str = "pull pulled tension drag lift traction";
-pub const MIRRORED: &str = "symmetry sym symm mirror";
+const MIRRORED: &str = "symmetry sym symm mirror";
 
 /// Last words in names of what sits on or in something that holds it. Before other words they name the body: `hub.outside` is free.
 const SEATS: [&str; 10] = ["bore", "axle", "axis", "hub", "shaft", "housing", "case", "frame", "carrier", "block"];
 
 /// Words of so many letters at least are known at the beginning and at the end of a longer one, too: `clampleft`, `leftclamp`.
 const LONG: usize = 5;
+
+/// What lies nearer to x = 0 than this share of its length lies there.
+const ON_AXIS: f64 = 1e-6;
 
 /// A boundary looks along an axis if its mean normal has this component at least.
 pub const ALONG: f64 = 0.95;
@@ -73,6 +76,12 @@ impl<'a> NamedCurve<'a> {
         let is_known =
             |own: &String, word: &str| own == word || word.len() >= LONG && (own.starts_with(word) || own.ends_with(word));
         self.words().iter().any(|own| words.split(' ').any(|word| is_known(own, word)))
+    }
+
+    /// Whether its name says that it is a line of symmetry, or the axis, which lies on x = 0.
+    pub fn is_mirrored(&self) -> bool {
+        let lies_there = [self.low, self.high].iter().all(|x| x.x.abs() <= ON_AXIS * self.length);
+        self.has(MIRRORED) || lies_there && self.has("axis")
     }
 
     /// Whether its name says that it is held.

@@ -5,7 +5,7 @@ use crate::accuracy::{NARROWEST, WORTH_WITHIN_SEGMENTS};
 use crate::procedure::MOVES;
 
 /// Every row of the table, with its figure.
-const ROWS: [(&str, &Limit); 31] = [
+const ROWS: [(&str, &Limit); 32] = [
     ("inf_sup", &INF_SUP),
     ("oscillation", &OSCILLATION),
     ("zones[].edges", &EDGES),
@@ -32,6 +32,7 @@ const ROWS: [(&str, &Limit); 31] = [
     ("slant", &SLANT),
     ("direction_error", &DIRECTION),
     ("cut_at_joint", &CUT_AT_JOINT),
+    ("held_force", &HELD_FORCE),
     ("rotation_error", &TURNING),
     ("rotation_error", &GROWTH),
     ("rotation_max", &ROTATION),
