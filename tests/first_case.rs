@@ -645,8 +645,14 @@ fn the_turn_alone_of_a_loaded_pin_is_proposed_to_be_held() {
     std::fs::write(folder.path().join("case.toml"), format!("{before}[contact.seam]{after}")).expect("a case can be written");
     let (code, output, errors) = mezha_in(folder.path(), None, &["check", "case.toml"]);
     let (_, table) = output.split_once("[support.pin-still]\n").expect("a proposal");
-    let keys: Vec<&str> = table.lines().take_while(|line| line.contains(" = ")).skip(2).collect();
-    assert_eq!((code, keys), (Some(3), vec!["angle = 0.0"]), "{output}{errors}");
+    let keys = |table: &str| table.lines().take_while(|line| line.contains(" = ")).skip(2).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!((code, keys(table)), (Some(3), vec!["angle = 0.0".to_owned()]), "{output}{errors}");
+    let first = std::fs::read_to_string(new_case(folder.path(), "lug.msh")).expect("a case");
+    assert_eq!(
+        first.split_once("[support.pin-still]\n").map(|(_, table)| keys(table)),
+        Some(vec!["angle = 0.0".into()]),
+        "{first}"
+    );
 }
 
 /// The figure has every name, also where the case names a boundary that is not there.

@@ -163,6 +163,28 @@ fn a_loaded_body_is_told_to_let_contact_carry_its_load() {
     assert!(!ended.errors.contains("is driven by"), "{}", ended.errors);
 }
 
+/// A disc of a pile that is kept from moving aside, too, takes the load off its neighbours: no pressure of the pile is trusted. Where contact
+/// cannot carry what is held, as along an incline, or where nothing is, all are.
+#[test]
+fn a_hold_that_takes_the_load_off_contact_leaves_no_pressure_trusted() {
+    for ranks in [1, 2] {
+        let pile = || Run::case("packing/groove.toml").ranks(ranks).set("exact.must_hold", false).set("output.fields", false);
+        for (run, is_taken) in [(pile(), false), (pile().set("support.disc04.ux", 0.0), true)] {
+            let ended = run.converged();
+            for contact in ["disc4_right", "disc5_disc4", "disc1_left"] {
+                assert_eq!(ended.number(&format!("/contact/{contact}/held_force")) > 0.01, is_taken, "{contact}");
+                assert_eq!(ended.value(&format!("/contact/{contact}/trust")) == false, is_taken, "{contact}: {}", ended.said());
+            }
+            assert_eq!(
+                ended.errors.contains("hold of these bodies no more than `mezha check` proposes"),
+                is_taken,
+                "{}",
+                ended.said()
+            );
+        }
+    }
+}
+
 /// The contact line is inclined: it resists the shift that is held, and a force along the line drives the upper block.
 #[test]
 fn a_mean_motion_that_contact_resists_is_as_asked_and_its_force_is_told() {

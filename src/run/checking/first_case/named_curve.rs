@@ -128,6 +128,8 @@ mod tests {
         for name in ["hub.outside", "block.top left", "basalt", "seam", "routed", "axle.left flank"] {
             assert!(!named(name).is_held(), "{name}");
         }
+        let away = NamedCurve { high: Point::new(1.0, 0.0), ..named("bolt.axis") };
+        assert!(named("bolt.axis2").is_mirrored() && !away.is_mirrored() && away.is_held(), "an axis lies on x = 0");
         assert!(named("bolt.pull").has(PULLED) && named("PullRight").has(LOADED) && !named("pulley").has(LOADED));
     }
 }
