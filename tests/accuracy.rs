@@ -8,6 +8,9 @@ use tempfile::TempDir;
 /// Strain energy of the bars below.
 const ENERGY: f64 = 2.602_599_118_747_502e-3;
 
+/// Displacement of the corner of the angle below.
+const CORNER: [f64; 2] = [2.592_07e-3, 3.733_31e-3];
+
 const CASE: &str = r#"
 mesh.file = "mesh.msh"
 body.lower = { young = 7000.0, poisson = 0.227 }
@@ -169,6 +172,58 @@ fn displacement_and_stress_at_a_point_are_as_exact_as_asked() {
     println!("{:?}: u off by {:.1e}, stress by {:.1e}", sizes(&ended), errors[0], errors[1]);
     assert!(errors[0] <= 1e-4 && errors[1] <= 1e-3, "{errors:?}");
     assert!(sizes(&ended).last().is_some_and(|[_, unknowns]| *unknowns <= 10_000), "{:?}", sizes(&ended));
+}
+
+/// An L that is pulled at its end, clamped along its foot; the corner inside is that of a second probe.
+fn angle() -> (TempDir, PathBuf) {
+    let block = Block {
+        points: vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [2.0, 1.0], [0.0, 2.0], [1.0, 2.0], [2.0, 2.0]],
+        triangles: vec![[0, 1, 3], [0, 3, 2], [2, 3, 6], [2, 6, 5], [3, 4, 7], [3, 7, 6]],
+        sides: [vec![[0, 1]], vec![[4, 7]], vec![[7, 6], [6, 5]], vec![]],
+    };
+    let case = r#"
+mesh.file = "mesh.msh"
+body.angle = { young = 1000.0, poisson = 0.3 }
+support.foot = { on = "foot", ux = 0.0, uy = 0.0 }
+load.end = { on = "end", traction = [1.0, 1.0] }
+probe.corner = { point = [1.0, 1.0], body = "angle" }
+output.fields = false
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &Mesh { bodies: vec![("angle", block, ["foot", "end", "top", ""])] }.text(), case);
+    (folder, file)
+}
+
+/// The displacement of a re-entrant corner comes to rest with a power of .54 of the edges there, and an estimate that takes it for a smooth
+/// one says a third of the error. Reference of a run with an estimate of 7e-6.
+#[test]
+fn the_displacement_of_a_corner_is_as_exact_as_asked() {
+    let (_folder, file) = angle();
+    for (asked, ranks) in [(1e-2, 1), (3e-3, 2), (1e-3, 1)] {
+        let ended = Run::file(&file).set("accuracy.displacement", format!("{asked}")).ranks(ranks).converged();
+        let u = [0, 1].map(|k| ended.number(&format!("/probe/corner/u/{k}")));
+        let apart = (u[0] - CORNER[0]).hypot(u[1] - CORNER[1]) / CORNER[0].hypot(CORNER[1]);
+        let estimate = last_estimate(&ended, "probe/corner/displacement");
+        println!("{asked:.0e}: off by {apart:.1e}, estimate {estimate:.1e}, {:?}", sizes(&ended));
+        assert!(apart <= 1.2 * estimate && estimate <= asked, "{apart:e}, estimate {estimate:e}");
+    }
+}
+
+/// Neither has the stress there a value, nor at the end of the clamp, nor the displacement of a point that carries a force: one mesh tells.
+#[test]
+fn what_has_no_value_is_never_reached() {
+    let (_folder, file) = angle();
+    let asked = |goal: &str, at: &str| Run::file(&file).set(&format!("accuracy.{goal}"), "1e-1").set("probe.corner.point", at);
+    let at_load =
+        asked("displacement", "[2.0, 2.0]").set("load.point", "{ at = [2.0, 2.0], body = \"angle\", force = [1.0, 0.0] }");
+    for run in [asked("stress", "[1.0, 1.0]"), asked("stress", "[0.0, 0.0]"), at_load] {
+        let ended = run.ranks(2).ended();
+        assert_eq!((ended.code, sizes(&ended).len()), (Some(3), 1), "{}", ended.said());
+        assert!(ended.value("/reason").to_string().contains("what is asked for has no value"), "{}", ended.value("/reason"));
+    }
+    // What is held there is known exactly.
+    let held = asked("displacement", "[0.0, 0.0]").converged();
+    assert_eq!([0, 1].map(|k| held.number(&format!("/probe/corner/u/{k}"))), [0.0; 2]);
 }
 
 /// Stresses and λ of the case are formulas, so that each mesh knows its true errors.

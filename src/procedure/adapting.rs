@@ -1,7 +1,8 @@
 //! The loop over meshes that are adapted to an accuracy: solved, judged, refined where the error is, until all goals are
 //! reached.
 
-use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, Quantity, SequenceEnd};
+use crate::accuracy::{Accuracy, Adaptation, AdaptedMesh, Goal, ProbePoint, Quantity, SequenceEnd};
+use crate::body::Unbounded;
 use crate::discretisation::{Contact, ContactPressure, Scene, SystemError};
 use crate::geometry::Point;
 use crate::mesh::{Cells, Partition};
@@ -13,6 +14,7 @@ use crate::procedure::predecessor::Predecessor;
 use crate::procedure::sequence::{Indicators, LocalIndicator, MeshSequence};
 use crate::procedure::settings::{Event, Observer, Procedure, Work};
 use crate::procedure::solved::Solved;
+use crate::recovery::unbounded_at;
 use std::cell::Cell;
 use std::collections::HashSet;
 
@@ -139,12 +141,20 @@ impl Procedure<'_> {
         all.into_iter().find(|(is_so, _)| *is_so).map(|(_, end)| end)
     }
 
-    /// Whether the largest λ of a contact is asked for, was unknown on some meshes in a row, and grows without bound on the last.
+    /// Whether something is asked for that has no value: a stress where that has no bound, the displacement of a point that carries a force,
+    /// or the largest λ of a contact that was unknown on some meshes in a row, and grows without bound on the last.
     fn is_unbounded(&self, adaptation: &Adaptation, solved: &Solved) -> bool {
-        let Some(then) = adaptation.meshes.len().checked_sub(UNBOUNDED) else { return false };
-        let never = |place: usize| adaptation.meshes[then..].iter().all(|mesh| mesh.errors[place].is_none());
-        let grows = |goal: &Goal| matches!(&goal.quantity, Quantity::Peak(name) if self.has_unbounded_peak(solved, name));
-        adaptation.missed().any(|(place, goal)| never(place) && grows(goal))
+        let last = adaptation.meshes.iter().rev().take(UNBOUNDED);
+        let never = |place: usize| last.len() == UNBOUNDED && last.clone().all(|mesh| mesh.errors[place].is_none());
+        let Solved { problem, solution, .. } = solved;
+        let unbounded = |probe: &ProbePoint| unbounded_at(problem, solution, (&probe.body, probe.point));
+        let has_no_value = |(place, goal): (usize, &Goal)| match &goal.quantity {
+            Quantity::Peak(name) => never(place) && self.has_unbounded_peak(solved, name),
+            Quantity::Stress(probe) => unbounded(probe).is_some(),
+            Quantity::Displacement(probe) => unbounded(probe) == Some(Unbounded::Point),
+            _ => false,
+        };
+        adaptation.missed().any(has_no_value)
     }
 
     /// Where the errors of the goals that are missed lie. **Collective**

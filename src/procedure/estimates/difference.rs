@@ -1,6 +1,7 @@
 //! How the solution on one mesh differs from that on the mesh before: in the energy norm and in each value that is estimated.
 
 use crate::accuracy::{Accuracy, ProbePoint};
+use crate::body::Unbounded;
 use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, SystemError, local_strain_energy};
 use crate::mesh::Cells;
 use crate::petsc::Session;
@@ -8,7 +9,7 @@ use crate::procedure::coarse_solution::CoarseSolution;
 use crate::procedure::estimates::end_estimate::{ends_within_segments, way_of_ends};
 use crate::procedure::estimates::energy_norm::{share, whole_energy, without_points};
 use crate::procedure::estimates::zone_estimate::ZoneDifference;
-use crate::recovery::{Probing, cell_energies, probe, stress_around};
+use crate::recovery::{Probing, cell_energies, probe, stress_around, unbounded_at};
 
 /// How a solution differs from that on the mesh before.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,13 +44,15 @@ pub struct ContactDifference {
 }
 
 /// Relative differences at a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ProbeDifference {
     /// Of the displacement.
     pub displacement: f64,
     /// Of the stress there, and in the mean over the triangle, by the stress there: each is compared with its own kind on the mesh
     /// before, since at some places a stress is good by luck.
     pub stress: [f64; 2],
+    /// Why the stress has no bound there, if so.
+    pub unbounded: Option<Unbounded>,
 }
 
 impl Difference {
@@ -67,7 +70,8 @@ impl Difference {
         let whole = whole_energy(problem, &u, session)?;
         let apart = Field::displacement(problem, &apart, session);
         let probes = accuracy.map_or_else(Vec::new, Accuracy::probes);
-        let probes = probes.iter().map(|point| at_probe(problem, point, &u, &apart, session)).collect::<Result<_, _>>()?;
+        let probes =
+            probes.iter().map(|point| at_probe((problem, solution), point, [&u, &apart], session)).collect::<Result<_, _>>()?;
         let cells = if accuracy.is_some() { cell_energies(problem, &apart, session)? } else { Vec::new() };
         let of_triangles = without_points(problem, local_strain_energy(problem, &apart, session)?, session);
         let left_out = problem.scene.has_point_load(session.rank());
@@ -103,13 +107,12 @@ impl ContactDifference {
 
 /// Relative differences at a point; not a number where no body holds it. **Collective**
 fn at_probe(
-    problem: &Discretisation,
+    (problem, solution): (&Discretisation, &Solution),
     point: &ProbePoint,
-    u: &Field<2>,
-    apart: &Field<2>,
+    [u, apart]: [&Field<2>; 2],
     session: &Session,
 ) -> Result<ProbeDifference, SystemError> {
-    let unknown = ProbeDifference { displacement: f64::NAN, stress: [f64::NAN; 2] };
+    let unknown = ProbeDifference { displacement: f64::NAN, stress: [f64::NAN; 2], unbounded: None };
     let Some(region) = problem.scene.mesh.region(&point.body) else { return Ok(unknown) };
     let both = [(u, Probing::Displacement), (apart, Probing::Difference)];
     let [whole, part] = both.map(|field| probe(problem, field, region, point.point, session));
@@ -118,5 +121,7 @@ fn at_probe(
     let plane = problem.scene.mesh.plane;
     let size = |stress: [f64; 4]| plane.stress_product(stress, stress).sqrt();
     let stress = [size(part.stress), around].map(|apart| apart / size(whole.stress));
-    Ok(ProbeDifference { displacement: part.displacement.norm() / whole.displacement.norm(), stress })
+    let displacement = share(part.displacement.norm(), whole.displacement.norm());
+    let unbounded = unbounded_at(problem, solution, (&point.body, point.point));
+    Ok(ProbeDifference { displacement, stress, unbounded })
 }

@@ -59,7 +59,7 @@ fn limits(Adaptation { accuracy, end, refusal, .. }: &Adaptation) -> String {
         SequenceEnd::Stuck => "; an estimate no longer falls, or cannot be had",
         SequenceEnd::Meshes => "; there are no more meshes than that",
         SequenceEnd::Unbounded => {
-            "; a largest λ that is asked for grows without bound, towards an end of its contact, where materials meet, or at a corner of a side: it has no value, ask for pressure or force instead"
+            "; what is asked for has no value: a largest λ that grows without bound, towards an end of its contact, where materials meet, or at a corner of a side, a stress at a re-entrant corner, at an end of what holds a body, where materials meet or under a pressing corner, or the displacement of a point that carries a force; ask for pressure or force instead, or at another point"
         }
         _ => "",
     };
