@@ -65,7 +65,9 @@ impl Run<'_> {
         progress::enter(Work::Recovery);
         let found = Evaluation::new(&solved.problem, &solved.solution, self.session)?;
         self.report.warn_all(&large_strains(&found));
-        self.report.warn_all(&loaded_points(&found));
+        if !solved.is_idle(self.session) {
+            self.report.warn_all(&loaded_points(&found));
+        }
         let (mut contacts, mut estimates) = (BTreeMap::new(), BTreeMap::new());
         let (mut traces, mut warnings) = (Vec::new(), Vec::new());
         for (at, placed) in solved.problem.contacts.iter().enumerate() {
@@ -93,10 +95,13 @@ impl Run<'_> {
 }
 
 impl Run<'_> {
-    /// Expected values and trust: the status, and the reason so far. `missed` are values that the case expects.
+    /// Expected values and trust: the status, and the reason so far. `missed` are values that the case expects. **Collective**
     fn judge(&self, summary: &mut Summary, solved: &Solved, missed: &[String]) -> (Status, String) {
-        let ((mut status, mut reason), mut none) = (ended(solved), None);
-        if status == Status::Converged {
+        // Where nothing happens, rounding is all that a residual tells.
+        let idle = solved.is_idle(self.session);
+        let (mut status, mut reason) = if idle { (Status::Converged, IDLE.into()) } else { ended(solved) };
+        let (converged, mut none) = (status == Status::Converged, None);
+        if converged && !idle {
             missed.iter().for_each(|missed| self.report.say(&format!("missed: {missed}")));
             let missed = (self.case.exact.must_hold && !missed.is_empty())
                 .then(|| format!("expected values are missed ({})", missed.join("; ")));
@@ -107,10 +112,9 @@ impl Run<'_> {
                 || Some((Status::Unresolved, loose.or_else(|| unresolved(summary, self.case, solved.ending.still_moved()))?));
             (status, reason) = stopped.or_else(coarse).unwrap_or((status, reason));
         }
-        let judgement = trust::judge(summary, self.case, solved.ending.is_converged());
-        if status == Status::Unresolved || none.is_some() {
-            trust::distrust(summary, if none.is_some() { "has not converged" } else { "is not resolved" });
-        }
+        let unresolved = (status == Status::Unresolved).then_some("is not resolved");
+        let why = none.map(|_| "has not converged").or(unresolved);
+        let judgement = trust::judge(summary, self.case, converged, why);
         if let Some(words) = judgement.unreliable {
             let words = format!("pressure unreliable: {words}");
             self.report.warn(&words);

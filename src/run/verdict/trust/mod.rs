@@ -36,8 +36,8 @@ pub struct Judgement {
     pub unknown: Vec<String>,
 }
 
-/// Sets the trust of every contact of a solution.
-pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
+/// Sets the trust of every contact of a solution: of none where the run has no result, which is `why`, as in "is not resolved".
+pub fn judge(summary: &mut Summary, case: &Case, converged: bool, why: Option<&str>) -> Judgement {
     let refinements = refinements_wanted(summary, case);
     let judged = as_solved(case).into_iter().filter_map(|pair| {
         let contact = summary.contact.get(&pair.name)?;
@@ -45,6 +45,9 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
     });
     let mut verdicts: BTreeMap<String, Verdict> = judged.collect();
     distrust_shared_forces(&mut verdicts, summary);
+    if why.is_some() {
+        verdicts.values_mut().for_each(|verdict| verdict.trust_force = Some(false));
+    }
     for (name, contact) in &mut summary.contact {
         contact.judged = verdicts.get(name).map(Verdict::trust).unwrap_or_default();
         let singular = contact.singular_words().filter(|_| contact.judged.verdict.as_deref() == Some(TRUSTED));
@@ -52,6 +55,7 @@ pub fn judge(summary: &mut Summary, case: &Case, converged: bool) -> Judgement {
             contact.judged.verdict = Some(format!("{TRUSTED}, but for the largest value: λ grows without bound {place}"));
         }
     }
+    why.into_iter().for_each(|why| distrust(summary, why));
     let names = in_order(summary, case, &verdicts);
     let doubts = clauses(&names, &verdicts, |verdict| &verdict.doubts);
     let unknown = clauses(&names, &verdicts, |verdict| verdict.unknown.as_slice());
@@ -74,7 +78,7 @@ fn distrust_shared_forces(verdicts: &mut BTreeMap<String, Verdict>, summary: &Su
 }
 
 /// Leaves no contact trusted, of a run that is not resolved, or that has not converged though its solve has.
-pub fn distrust(summary: &mut Summary, why: &str) {
+fn distrust(summary: &mut Summary, why: &str) {
     for ContactSummary { judged, .. } in summary.contact.values_mut() {
         let why = match judged.trust {
             Some(false) => judged.verdict.take(),

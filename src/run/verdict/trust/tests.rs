@@ -165,7 +165,7 @@ fn judged(converged: bool, change: impl Fn(&mut Summary), settings: &[&str]) -> 
     let estimate = ContactEstimate { force: Some(1e-3), lambda: Some(0.01), peak: Some(0.02) };
     summary.estimate.contact.insert("seam".into(), estimate);
     change(&mut summary);
-    let words = judge(&mut summary, &case, converged).unreliable.unwrap_or_default();
+    let words = judge(&mut summary, &case, converged, None).unreliable.unwrap_or_default();
     (summary.contact["seam"].judged.trust, summary.contact["seam"].judged.trust_force, words)
 }
 
@@ -304,7 +304,7 @@ fn scene(count: usize, force: impl Fn(usize) -> f64, edges: impl Fn(usize) -> f6
         let contact = ContactSummary { zones, force, unresolved_force, missing_force, ..ContactSummary::default() };
         summary.contact.insert(format!("c{k}"), contact);
     }
-    let judgement = judge(&mut summary, &case, true);
+    let judgement = judge(&mut summary, &case, true, None);
     (summary, judgement)
 }
 
@@ -318,7 +318,7 @@ fn a_largest_pressure_that_means_nothing_is_told_in_the_verdict() {
         let contact =
             ContactSummary { zones, force, unresolved_force: nothing, missing_force: nothing, ..ContactSummary::default() };
         let mut summary = Summary { contact: [("seam".to_owned(), contact)].into(), ..Summary::default() };
-        judge(&mut summary, &parsed(CASE, &[]), true);
+        judge(&mut summary, &parsed(CASE, &[]), true, None);
         let judged = summary.contact["seam"].judged.clone();
         (judged.trust, judged.verdict.unwrap_or_default())
     };
@@ -404,7 +404,7 @@ fn a_force_that_goes_on_in_another_contact_is_trusted_with_that_ones_only() {
         let contact = summary.contact.get_mut("c0").expect("it is there");
         contact.shares_with = shares_with.iter().map(ToString::to_string).collect();
         summary.contact.get_mut("c1").expect("it is there").force = Some(force);
-        judge(&mut summary, &case, true);
+        judge(&mut summary, &case, true, None);
         assert_eq!(trusted(&summary), [wanted, false, true].map(Some), "{shares_with:?}, {force}");
     }
 }
