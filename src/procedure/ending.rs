@@ -110,9 +110,6 @@ fn boundary_stands(fits: usize, held: Option<HeldEnds>, way: Option<f64>) -> Str
     }
 }
 
-/// What helps where the contact conditions cannot be met.
-const NOT_MET: &str = "rounding allows no better; take bodies that are less slender or less unlike in stiffness, or, without [accuracy], fewer segments";
-
 /// What does not stand.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Failure {
@@ -129,8 +126,8 @@ pub enum Failure {
         /// The relative residual.
         residual: f64,
     },
-    /// The contact conditions, at the place where they are violated most.
-    #[error("{0}; {NOT_MET}")]
+    /// The contact conditions, at the place where they are violated most, with what helps.
+    #[error("{0}")]
     ConditionsViolated(String),
     /// The active set, with the multipliers that changed last and what helps.
     #[error("{0}")]

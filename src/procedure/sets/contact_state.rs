@@ -13,6 +13,14 @@ const MOST_VIOLATED: f64 = 1e-3;
 /// The same, by the relative residual of the solve; the larger one counts.
 const BY_RESIDUAL: f64 = 1e4;
 
+/// Violations by more than this share of the largest pressure are not of rounding: a roller that its load drives up its groove pulls by
+/// all of it.
+const MORE_THAN_ROUNDING: f64 = 10.0 * MOST_VIOLATED;
+
+/// What helps where rounding is all that is wrong with the contact conditions, and where it is not.
+const BY_ROUNDING: &str = "rounding allows no better; take bodies that are less slender or less unlike in stiffness, or, without [accuracy], fewer segments";
+const BY_LOADS: &str = "no set of what presses was found that holds the bodies: the loads may drive one off this contact or along it; if they do not, refine the mesh where contact is";
+
 /// Share of the largest displacement by which rounding alone moves bodies apart or into each other. Contact that presses by no
 /// more, as where bodies touch without a force between them, meets its conditions.
 const ROUNDING: f64 = 1e-12;
@@ -91,7 +99,7 @@ impl ContactState {
 
     /// Looks at the contact conditions themselves, whatever led to the set: no multiplier of a unilateral contact pulls, none
     /// that is open penetrates, and closed ones touch, to a share of the largest pressure that the relative `residual` allows.
-    /// Otherwise words with the figure of the worst.
+    /// Otherwise words with the figure of the worst, and with what helps.
     pub(crate) fn violated(&self, problem: &Discretisation, active: &[bool], residual: f64) -> Option<String> {
         let allowed = MOST_VIOLATED.max(BY_RESIDUAL * residual);
         let most = self.largest_pressure();
@@ -104,7 +112,8 @@ impl ContactState {
                 if !holds && worst.as_ref().is_none_or(|(value, _)| off > *value) {
                     let place = crate::procedure::sets::unsettled::place(contact, i);
                     let by = if most > 0.0 { format!(", by {:.1e} of the largest pressure", off / most) } else { String::new() };
-                    worst = Some((off, format!("{place} {what}{by}")));
+                    let helps = if off > MORE_THAN_ROUNDING * most { BY_LOADS } else { BY_ROUNDING };
+                    worst = Some((off, format!("{place} {what}{by}; {helps}")));
                 }
             }
         }
