@@ -7,8 +7,8 @@ use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
 use crate::run::verdict::limits::{
-    CUT_AT_JOINT, CUT_OFF, DIRECTION, Doubt, GROWTH, HELD_FORCE, LITTLE_SLIP, LOST_AT_ENDS, OVERLAP_BEYOND, P1_LOCKS, RESIDUAL,
-    ROTATION, SLANT, SLIP, SLIP_AT_ENDS, STRAIN, TURNING, WITHIN_SEGMENTS, percent,
+    CUT_AT_JOINT, CUT_OFF, Doubt, GROWTH, HELD_FORCE, LITTLE_SLIP, LOST_AT_ENDS, OVERLAP_BEYOND, P1_LOCKS, RESIDUAL, ROTATION,
+    SLANT, SLIP, SLIP_AT_ENDS, STRAIN, TURNING, WITHIN_SEGMENTS, percent,
 };
 use crate::run::words::short;
 
@@ -17,7 +17,6 @@ pub fn doubts_beyond(summary: &Summary, contact: &ContactSummary, case: &Case, c
     let own =
         slip_doubt(contact).into_iter().chain(end_doubt(contact)).chain(unresolved_doubt(contact)).chain(cut_doubt(contact));
     let own = own.chain(OVERLAP_BEYOND.judge(contact.missing_beyond, &[])).chain(SLANT.judge(contact.slant, &[]));
-    let own = own.chain(DIRECTION.judge(contact.direction_error, &[]));
     let joint = CUT_AT_JOINT.judge(contact.cut_at_joint, &[]).into_iter().chain(HELD_FORCE.judge(contact.held_force, &[]));
     let turning = turning_doubt(contact).filter(|_| carries || contact.zones.is_empty());
     let residual = summary.solver.residual.filter(|_| !case.solver.goes_by_estimate());

@@ -10,7 +10,7 @@ use crate::contact::{Pair, Quadrature};
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
 use crate::run::verdict::limits::{
-    CORNERS, Doubt, EDGES, ENERGY, FORCE, INF_SUP, OSCILLATION, Remedy, SHAPE, TRUSTED_FORCE, TRUSTED_FORCE_ON_FEW,
+    CORNERS, DIRECTION, Doubt, EDGES, ENERGY, FORCE, INF_SUP, OSCILLATION, Remedy, SHAPE, TRUSTED_FORCE, TRUSTED_FORCE_ON_FEW,
 };
 use crate::run::verdict::no_result::{balance_doubts, is_strained};
 use crate::run::words::short;
@@ -44,7 +44,8 @@ pub fn verdict(summary: &Summary, contact: &ContactSummary, mended: Mended, conv
     doubts.extend(ENERGY.judge(summary.estimate.energy, &[]));
     doubts.extend(unbalanced);
     doubts.extend(FORCE.judge(force, &[]).filter(|_| carries));
-    let beyond = doubts_beyond(summary, contact, case, carries);
+    let mut beyond = doubts_beyond(summary, contact, case, carries);
+    beyond.extend(direction_doubt(contact, pair, case).filter(|_| carries));
     let shapes: Vec<Doubt> = shape_doubts(contact, pair, case).into_iter().filter(|_| carries).collect();
     let is_known = contact.shape_error_force.is_none_or(|error| error <= shape_limit(pair, case, false));
     let trust_force = trust_force.map(|trust| trust && beyond.is_empty() && (is_known || !carries));
@@ -111,14 +112,25 @@ pub fn shape_doubts(contact: &ContactSummary, pair: &Pair, case: &Case) -> Vec<D
     CORNERS.judge(contact.corner_error, &named[..3]).into_iter().chain(shape).collect()
 }
 
+/// What tells that forces turn with the bodies by more than is allowed, or than is asked for.
+pub fn direction_doubt(contact: &ContactSummary, pair: &Pair, case: &Case) -> Option<Doubt> {
+    let most = asked(pair, case, false).min(DIRECTION.value);
+    contact.direction_error.filter(|error| *error > most).map(|error| DIRECTION.doubt(error, &[("bound", &short(most))]))
+}
+
 /// How well the shape must be known, by what it does to λ or to the force: as well as either is asked for.
 fn shape_limit(pair: &Pair, case: &Case, of_pressure: bool) -> f64 {
+    asked(pair, case, of_pressure).min(SHAPE.value)
+}
+
+/// How exact the pressure of a contact is asked to be, or its force.
+fn asked(pair: &Pair, case: &Case, of_pressure: bool) -> f64 {
     let asked = case.accuracy.iter().flat_map(|accuracy| &accuracy.goals).filter(|goal| match &goal.quantity {
         Quantity::Pressure(name) | Quantity::Peak(name) => of_pressure && *name == pair.name,
         Quantity::Force(name) => !of_pressure && *name == pair.name,
         _ => false,
     });
-    asked.map(|goal| goal.tolerance).fold(SHAPE.value, f64::min)
+    asked.map(|goal| goal.tolerance).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]

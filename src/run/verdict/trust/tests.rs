@@ -210,6 +210,11 @@ fn what_is_beyond_the_model_spoils_the_force_too() {
     assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains("have in common"), "{found:?}");
     let found = seam(&|seam| seam.zones[0].cut_off = Some(0.5));
     assert!(found.0 == Some(false) && found.1 == Some(false) && found.2.contains("name what lies beyond"), "{found:?}");
+    // Of a force that is asked for to 1e-3 the direction may be off by no more.
+    let turned = |summary: &mut Summary| summary.contact.get_mut("seam").expect("it is there").direction_error = Some(4e-3);
+    assert_eq!([judged(true, turned, &[]).1, judged(true, turned, &["accuracy.force=1e-2"]).1], [Some(true); 2]);
+    let found = judged(true, turned, &["accuracy.force=1e-3"]);
+    assert!(found.1 == Some(false) && found.2.contains("wrong by about 4.0e-3 (relative), at most 1.0e-3 wanted"), "{found:?}");
     let noise = ZoneSummary { share: Some(1e-4), pressure_max: Some(1e-3), cut_off: Some(1.0), ..zone() };
     let beside =
         judged(true, move |summary| summary.contact.get_mut("seam").expect("it is there").zones.push(noise.clone()), &[]);
