@@ -52,7 +52,7 @@ def shape(kind, file):
     if line:
         return ("line3", 3) if line[2] == "3" or kind.startswith("B22") else ("line", 2)
     if kind.startswith(("CAX", "CGAX", "SAX", "MAX")):
-        raise SystemExit(f"{file}: elements {kind} are axisymmetric; mezha solves plane scenes, with CPE or CPS elements")
+        raise SystemExit(f"{file}: elements {kind} are axisymmetric; write CPE elements in their place, and plane = \"axisymmetric\" in the case")
     raise SystemExit(f"{file}: elements {kind} are not read; mezha takes plane ones: CPE and CPS of 3, 4, 6 or 8 nodes")
 
 

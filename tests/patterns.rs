@@ -243,6 +243,7 @@ fn what_is_set_of_one_of_many_holds_for_it() {
         bodies.iter().find(|body| body.name == "roller3").map(|body| body.parts[0].material.young)
     };
     assert_eq!((young(&[]), young(&["body.\"roller*\".young=7.0"])), (Some(1200.0), Some(7.0)));
+    assert_eq!(young(&["body.roller*.young=7.0"]), Some(7.0), "a pattern needs no quotes");
 }
 
 #[test]

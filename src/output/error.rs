@@ -14,7 +14,7 @@ pub enum OutputError {
     #[error("`{}` holds files but no summary.json of mezha, so it is not a result that may be replaced; choose another folder with --out", .0.display())]
     HoldsOtherFiles(PathBuf),
     /// The target exists and is not a folder.
-    #[error("`{}` is not a folder (or a link to one); choose another one with --out", .0.display())]
+    #[error("`{}` is no folder, or a link to one, which is not followed; choose another one with --out", .0.display())]
     NotAFolder(PathBuf),
     /// The target has no name of its own, such as `.` or `/`.
     #[error("`{}` does not name a folder that can be made; name one with --out, such as out/result", .0.display())]

@@ -92,9 +92,13 @@ pub fn value_at<'t>(table: &'t Table, path: &[String]) -> Option<&'t Value> {
     rest.iter().try_fold(table.get(first)?, |value, name| value.get(name))
 }
 
-/// Names of a dotted key, read by TOML's own rules.
+/// Names of a dotted key, read by TOML's own rules, but for patterns: `body.*.young` needs no quotes.
 pub fn read_key(key: &str) -> Option<Vec<String>> {
-    let mut table: Table = toml::from_str(&format!("{} = 0", key.trim())).ok()?;
+    let key = key.trim();
+    let quoted = |name: &str| if name.contains(['*', '?']) { format!("\"{name}\"") } else { name.to_owned() };
+    let is_quoted = key.contains(['"', '\'']);
+    let key = if is_quoted { key.to_owned() } else { key.split('.').map(quoted).collect::<Vec<_>>().join(".") };
+    let mut table: Table = toml::from_str(&format!("{key} = 0")).ok()?;
     let mut path = Vec::new();
     loop {
         let name = table.keys().next()?.clone();

@@ -65,6 +65,7 @@ pub fn must_be(wanted: &str, found: &Value) -> String {
     match found {
         Value::Float(number) if !number.is_finite() => format!("must be {wanted}"),
         Value::Array(list) => format!("must be {wanted}, not a list of length {}", list.len()),
+        Value::String(text) if text.is_empty() => format!("must be {wanted}, and is empty"),
         found => format!("must be {wanted}, not of type {}", found.type_str()),
     }
 }

@@ -11,6 +11,9 @@ const BRIDGED_EDGES: f64 = 4.0;
 /// What may be done about several stretches that touch.
 const OF_ITS_OWN: &str = "give each a name and a contact of its own, or tell the curve of all by a [geometry]";
 
+/// Angle (radians) at which straight pieces go on as each other: that of coordinates of six digits.
+const STRAIGHT: f64 = 1e-5;
+
 /// Pieces that meet at a smaller angle (radians) are not split by a corner there.
 const JOINT: f64 = 0.3;
 
@@ -139,12 +142,22 @@ fn what_splits(sides: &[SmoothSide], touching: &[usize]) -> (String, &'static st
     let count = touching.len();
     match turns.reduce(f64::max) {
         None => (format!("is of pieces that do not hang together, {count} of which"), ""),
+        Some(_) if is_torn(sides, touching) => (
+            format!("is torn where its nodes lie on each other and are not merged, and {count} of its pieces"),
+            "; merge the nodes (`Coherence Mesh` in Gmsh)",
+        ),
         Some(turn) if turn < JOINT => (
             format!("is of pieces with different shapes, {count} of which"),
             "; if they are one curve, mesh it finer where they meet",
         ),
         Some(_) => (format!("has corners of more than 20 degrees, and {count} of its smooth stretches"), ""),
     }
+}
+
+/// Whether straight stretches go on as each other: they would be one if they had a node in common.
+fn is_torn(sides: &[SmoothSide], touching: &[usize]) -> bool {
+    let is_smooth = |a: usize, b: usize| corner(&sides[a], &sides[b]).is_some_and(|turn| turn < STRAIGHT);
+    touching.iter().all(|&k| sides[k].shape.is_line() && touching.iter().any(|&other| other != k && is_smooth(k, other)))
 }
 
 /// The largest angle (radians) between two stretches where an end of one is an end of the other.
@@ -171,6 +184,21 @@ mod tests {
         let at = |k: usize| Point::new((9.0 * k as f64).to_radians().cos(), (9.0 * k as f64).to_radians().sin());
         let points: Vec<Point> = (0..=40).map(at).collect();
         SmoothSide::through(Curve::Circle { centre: [0.0, 0.0], radius: 1.0 }, points.clone(), points, 1.0, 1, true)
+    }
+
+    #[test]
+    fn nodes_that_are_not_merged_are_told_from_shapes_that_differ() {
+        let line = |[from, to]: [[f64; 2]; 2]| {
+            let at = |k: usize| Point::from(from) + k as f64 / 4.0 * (Point::from(to) - Point::from(from));
+            let points: Vec<Point> = (0..=4).map(at).collect();
+            SmoothSide::through(Curve::Line([from, to]), points.clone(), points, 1.0, 1, false)
+        };
+        let words = |second| what_splits(&[line([[0.0, 0.0], [1.0, 0.0]]), line(second)], &[0, 1]);
+        let (torn, remedy) = words([[1.0, 0.0], [2.0, 0.0]]);
+        assert!(torn.contains("not merged") && remedy.contains("merge the nodes"), "{torn}{remedy}");
+        assert!(words([[1.0, 0.0], [2.0, 0.2]]).0.contains("different shapes"));
+        assert!(words([[1.0, 0.0], [1.0, 1.0]]).0.contains("corners"));
+        assert!(words([[1.5, 0.0], [2.0, 0.0]]).0.contains("do not hang together"));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Whether an accuracy is reached, and in which words.
 
 use super::goals::{name, of_how_many, told, would_take};
-use crate::accuracy::{Adaptation, SequenceEnd};
+use crate::accuracy::{Adaptation, Goal, Quantity, SequenceEnd};
 use crate::output::plot::grouped;
 use crate::output::summary::Status;
 use crate::run::words::{figure, plain, rounded_up};
@@ -49,7 +49,10 @@ fn words(adaptation: &Adaptation) -> String {
 }
 
 /// The limits that the case sets, and what else has ended the sequence: `; the case allows 2 000 unknowns and 5 s`.
-fn limits(Adaptation { accuracy, end, refusal, .. }: &Adaptation) -> String {
+fn limits(adaptation: &Adaptation) -> String {
+    let Adaptation { accuracy, end, refusal, .. } = adaptation;
+    let is_at_probe = |goal: &Goal| matches!(goal.quantity, Quantity::Stress(_) | Quantity::Displacement(_));
+    let has_no_value = |(place, goal): (usize, &Goal)| is_at_probe(goal) && adaptation.error(place).is_none();
     let unknowns = accuracy.most_unknowns.map(|most| format!("{} unknowns", grouped(most)));
     let seconds = accuracy.most_seconds.map(|most| format!("{} s", plain(most)));
     let all: Vec<String> = unknowns.iter().cloned().chain(seconds).collect();
@@ -58,8 +61,11 @@ fn limits(Adaptation { accuracy, end, refusal, .. }: &Adaptation) -> String {
         SequenceEnd::Unknowns if unknowns.is_none() => "; the next mesh would take more than half of the memory that is left",
         SequenceEnd::Stuck => "; an estimate no longer falls, or cannot be had",
         SequenceEnd::Meshes => "; there are no more meshes than that",
+        SequenceEnd::Unbounded if adaptation.missed().any(has_no_value) => {
+            "; what is asked for at a probe has no value: a stress at a re-entrant corner, at an end of what holds a body, where materials meet or under a pressing corner, or the displacement of a point that carries a force; ask for it at another point"
+        }
         SequenceEnd::Unbounded => {
-            "; what is asked for has no value: a largest λ that grows without bound, towards an end of its contact, where materials meet, or at a corner of a side, a stress at a re-entrant corner, at an end of what holds a body, where materials meet or under a pressing corner, or the displacement of a point that carries a force; ask for pressure or force instead, or at another point"
+            "; a largest λ that is asked for grows without bound, towards an end of its contact, where materials meet, or at a corner of a side: it has no value, ask for pressure or force instead"
         }
         _ => "",
     };

@@ -123,7 +123,7 @@ fn an_older_study_goes_only_if_it_is_said_and_other_files_stay() {
     }
     fs::create_dir(out.join("runs/007")).unwrap();
     drop(made);
-    assert!(error(&out, "bars").contains("holds an older study; choose another folder with --out"));
+    assert!(error(&out, "bars").contains("holds a result, or an older study; choose another folder with --out"));
     assert!(out.join("study.csv").exists());
     let made = opened(&out, "bars", true);
     let there = |name: &str| out.join(name).exists();
