@@ -219,7 +219,11 @@ fn what_has_no_value_is_never_reached() {
     for run in [asked("stress", "[1.0, 1.0]"), asked("stress", "[0.0, 0.0]"), at_load] {
         let ended = run.ranks(2).ended();
         assert_eq!((ended.code, sizes(&ended).len()), (Some(3), 1), "{}", ended.said());
-        assert!(ended.value("/reason").to_string().contains("what is asked for at a probe has no value"), "{}", ended.value("/reason"));
+        assert!(
+            ended.value("/reason").to_string().contains("what is asked for at a probe has no value"),
+            "{}",
+            ended.value("/reason")
+        );
     }
     // What is held there is known exactly.
     let held = asked("displacement", "[0.0, 0.0]").converged();

@@ -73,7 +73,7 @@ impl Procedure<'_> {
                 outcome => {
                     let solved = outcome?;
                     self.judge(&mut sequence, &solved)?;
-                    let end = self.end(&sequence, &solved);
+                    let end = self.end(&sequence, &solved)?;
                     let missed = if end.is_none() { self.indicators(&sequence, &solved)? } else { Vec::new() };
                     if let Some(ended) = sequence.go_on(solved, end, &missed) {
                         return Ok(ended);
@@ -125,7 +125,7 @@ impl Procedure<'_> {
     }
 
     /// Why there is no further mesh, if so: the accuracy is reached, or will not be. The same on every rank. **Collective**
-    fn end(&self, MeshSequence { adaptation, .. }: &MeshSequence, solved: &Solved) -> Option<SequenceEnd> {
+    fn end(&self, MeshSequence { adaptation, .. }: &MeshSequence, solved: &Solved) -> Result<Option<SequenceEnd>, SystemError> {
         let meshes = &adaptation.meshes;
         let late = adaptation.accuracy.most_seconds.zip(meshes.last()).is_some_and(|(most, last)| last.seconds > most);
         // Clocks differ from rank to rank.
@@ -135,10 +135,10 @@ impl Procedure<'_> {
             (solved.is_idle(self.session) || adaptation.is_reached(), SequenceEnd::Reached),
             (late, SequenceEnd::Seconds),
             (self.is_unbounded(adaptation, solved), SequenceEnd::Unbounded),
-            (is_stuck(adaptation), SequenceEnd::Stuck),
+            (is_stuck(adaptation) || self.is_adrift(solved)?, SequenceEnd::Stuck),
             (meshes.len() == MOST_MESHES, SequenceEnd::Meshes),
         ];
-        all.into_iter().find(|(is_so, _)| *is_so).map(|(_, end)| end)
+        Ok(all.into_iter().find(|(is_so, _)| *is_so).map(|(_, end)| end))
     }
 
     /// Whether something is asked for that has no value: a stress where that has no bound, the displacement of a point that carries a force,

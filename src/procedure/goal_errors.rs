@@ -1,6 +1,6 @@
 //! Estimated errors of the goals of an accuracy.
 
-use crate::accuracy::{CUT, Goal, HERTZ_BY_UNRESOLVED, ProbePoint, Quantity, WORTH_WITHIN_SEGMENTS};
+use crate::accuracy::{CUT, Goal, HERTZ_BY_UNRESOLVED, ProbePoint, Quantity, ROUNDING_BY_OVERLAP, WORTH_WITHIN_SEGMENTS};
 use crate::contact::{Law, Zone};
 use crate::discretisation::{Contact, Discretisation, Field, SystemError, needed_contacts};
 use crate::procedure::estimates::AtEnds;
@@ -119,6 +119,22 @@ impl Procedure<'_> {
         let has_few_edges = pressure.has_few_edges(least);
         let is_cut = smooth_joints(at, problem, solution).cut > CUT;
         Ok(is_cut || is_within_segments || has_few_edges && pressure.is_too_narrow(&problem.scene.mesh, &points, least))
+    }
+
+    /// Whether rounding alone presses where bodies lie in each other within segments, and nothing drives a body that could move then: meshes
+    /// that are finer tell no more of where it lies. **Collective**
+    pub(super) fn is_adrift(&self, solved: &Solved) -> Result<bool, SystemError> {
+        let Solved { problem, solution, .. } = solved;
+        let u = Field::displacement(problem, &solution.displacement, self.session);
+        let mut loose = Vec::new();
+        for contact in &problem.contacts {
+            let pressure = solution.pressure(contact);
+            let off = unresolved_force(contact, &trace_points(problem, &pressure, &u, self.session)?, 0.0);
+            if off > 0.0 && pressure.force().abs() < ROUNDING_BY_OVERLAP * off {
+                loose.push(contact.pair.name.clone());
+            }
+        }
+        Ok(solved.adrift_without(&loose, self.session).is_some())
     }
 
     /// Errors of displacement and stress at a point.

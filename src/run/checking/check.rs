@@ -18,7 +18,7 @@ use crate::run::reading::checks::check_pressures;
 use crate::run::reading::{origin, scene};
 use crate::run::telling::report::contact_lines;
 use crate::run::verdict::warnings::before::{far_turns, idle, slits};
-use crate::run::verdict::warnings::loose::{comes_loose, pulled_off};
+use crate::run::verdict::warnings::loose::pulled_off;
 use crate::run::words::units;
 use crate::run::{accuracy, memory};
 use std::path::Path;
@@ -105,7 +105,7 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
         None => match at_rest.not_held(&scene)? {
             // What a hold would carry unseen is told before it.
             Some(words) => Some(pulled_off(&scene).map_or(words.clone(), |pulled| format!("{pulled}; and {words}"))),
-            None => comes_loose(&scene, &at_rest.numbering).or_else(|| driven_off(case, &scene)),
+            None => driven_off(case, &scene),
         }
         .map(last),
         before => before,

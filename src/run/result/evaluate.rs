@@ -3,7 +3,7 @@
 use super::figures::Shown;
 use crate::output::summary::{ContactSummary, EstimateSummary, Status, Summary, listed};
 use crate::output::{CONTACTS, RunError, contacts_table, write_text};
-use crate::procedure::{Solved, Work};
+use crate::procedure::{Ending, Failure, Solved, Work};
 use crate::recovery::Evaluation;
 use crate::run::summary::bodies::largest_stresses;
 use crate::run::summary::contact::contact;
@@ -15,7 +15,6 @@ use crate::run::verdict::trust;
 use crate::run::verdict::unresolved::{pressed_by_rounding, unresolved};
 use crate::run::verdict::warnings::after::{apart, large_strains, loaded_points, slivers};
 use crate::run::verdict::warnings::before::{IDLE, TO_DRIVE};
-use crate::run::verdict::warnings::loose::comes_loose;
 use crate::run::{Run, accuracy};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -43,11 +42,6 @@ impl Run<'_> {
             (status, reason) = (Status::Converged, IDLE.into());
         } else if status != Status::Converged && !solved.is_driven() {
             reason = format!("{IDLE}, if they are held; {TO_DRIVE}");
-        }
-        if status != Status::Converged
-            && let Some(words) = comes_loose(&solved.problem.scene, &solved.problem.finest().numbering)
-        {
-            reason = words;
         }
         let accuracy = adaptation.as_ref().map(accuracy::summarise);
         let summary = Summary { accuracy, status, ..summary };
@@ -101,20 +95,27 @@ impl Run<'_> {
         let idle = solved.is_idle(self.session);
         let (mut status, mut reason) = if idle { (Status::Converged, IDLE.into()) } else { ended(solved) };
         let (converged, mut none) = (status == Status::Converged, None);
+        let may_be_adrift = matches!(solved.ending, Ending::NotConverged(Failure::ConditionsViolated(_)));
+        let loose = if idle || !converged && !may_be_adrift { None } else { adrift(self, summary, solved) };
         if converged && !idle {
             missed.iter().for_each(|missed| self.report.say(&format!("missed: {missed}")));
             let missed = (self.case.exact.must_hold && !missed.is_empty())
                 .then(|| format!("expected values are missed ({})", missed.join("; ")));
             none = no_result(summary, self.case);
             let stopped = missed.or_else(|| none.clone()).map(|words| (Status::NotConverged, words));
-            let loose = adrift(self, summary, solved);
-            let coarse =
-                || Some((Status::Unresolved, loose.or_else(|| unresolved(summary, self.case, solved.ending.still_moved()))?));
+            let coarse = || unresolved(summary, self.case, solved.ending.still_moved());
+            let coarse = || Some((Status::Unresolved, loose.clone().or_else(coarse)?));
             (status, reason) = stopped.or_else(coarse).unwrap_or((status, reason));
+        } else if let Some(words) = &loose {
+            reason.clone_from(words);
         }
         let unresolved = (status == Status::Unresolved).then_some("is not resolved");
         let why = none.map(|_| "has not converged").or(unresolved);
         let judgement = trust::judge(summary, self.case, converged, why);
+        if loose.is_some() {
+            // Figures of rounding say nothing.
+            return (status, reason);
+        }
         if let Some(words) = judgement.unreliable {
             let words = format!("pressure unreliable: {words}");
             self.report.warn(&words);

@@ -1,6 +1,6 @@
 //! Whether a solution is one of what the case says: not if its mesh, or its contact boundaries, cannot hold that.
 
-use crate::accuracy::{HERTZ_BY_UNRESOLVED, NARROWEST, WORTH_WITHIN_SEGMENTS, share_of_nothing};
+use crate::accuracy::{HERTZ_BY_UNRESOLVED, NARROWEST, ROUNDING_BY_OVERLAP, WORTH_WITHIN_SEGMENTS, share_of_nothing};
 use crate::case::Case;
 use crate::contact::{Configuration, Law, Pair, SegmentRule};
 use crate::output::Summary;
@@ -12,10 +12,6 @@ use crate::run::words::short;
 
 /// A force below this share of the least one that counts is what solves leave: rings that heat has loosened had 4e-6 to 6e-5 of it.
 const ROUNDING: f64 = 1e-2;
-
-/// The same as a share of the force that overlaps within segments are worth: 1e-10 to 1.6e-9 of it in a sleeve that is loose between the
-/// heads of a hot bolt, where nothing else presses. What mesh and segments are too coarse for carries a hundredth of that and more.
-const ROUNDING_BY_OVERLAP: f64 = 1e-6;
 
 /// What is judged at.
 struct Judged<'a> {

@@ -114,7 +114,9 @@ fn read(bytes: &[u8], file: &Path) -> Result<RawMesh, MeshError> {
     let version = match cursor.next_line() {
         Some(line) if line == BEGIN => format(&mut cursor)?,
         None => return Err(MeshError::unusable(file, "is empty; mesh it with `gmsh -2`, and save it as format 4.1")),
-        Some(_) => return Err(cursor.error("not a Gmsh mesh: the first line must be $MeshFormat; python/mesh_to_gmsh.py converts Abaqus, VTK and other meshes")),
+        Some(_) => return Err(cursor.error(
+            "not a Gmsh mesh: the first line must be $MeshFormat; python/mesh_to_gmsh.py converts Abaqus, VTK and other meshes",
+        )),
     };
     let (mut groups, mut elements) = (groups::Groups::default(), elements::Elements::default());
     let mut seen = Vec::new();

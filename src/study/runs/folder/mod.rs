@@ -71,7 +71,9 @@ impl Folder {
     fn refuse_others(&self, study: &str) -> Result<(), RunError> {
         let other = match self.records.values().find(|record| record.study != study) {
             Some(record) => format!("the study {}", record.study),
-            None if self.records.is_empty() && TABLES.iter().any(|name| self.out.join(name).exists()) => "a result, or an older study".into(),
+            None if self.records.is_empty() && TABLES.iter().any(|name| self.out.join(name).exists()) => {
+                "a result, or an older study".into()
+            }
             None => return Ok(()),
         };
         let words = "choose another folder with --out, or replace it with --force";
