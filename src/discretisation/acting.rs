@@ -12,12 +12,14 @@ pub const BY_ROUNDING: f64 = 1e-9;
 impl Scene {
     /// Whether it has loads, prescribed motions, heat or interference. Without them its bodies stay as they are drawn.
     pub fn is_driven(&self, numbering: &Numbering) -> bool {
-        self.is_pushed() || self.pairs.iter().any(|pair| interferes(self, numbering, pair))
+        is_loaded(self) || self.is_moved() || self.pairs.iter().any(|pair| interferes(self, numbering, pair))
     }
 
-    /// Whether it has loads, prescribed motions or heat.
-    pub fn is_pushed(&self) -> bool {
-        is_loaded(self) || is_moved(self)
+    /// Whether supports, means or rigid sets move bodies.
+    pub fn is_moved(&self) -> bool {
+        let by_support = self.supports.iter().flat_map(|support| [&support.ux, &support.uy, &support.normal]).flatten().any(acts);
+        let by_mean = self.means.iter().flat_map(|mean| &mean.held).any(|held| held.value != 0.0);
+        by_support || by_mean || self.rigid.iter().any(|set| set.prescribed.iter().flatten().any(|value| *value != 0.0))
     }
 }
 
@@ -34,12 +36,6 @@ fn is_loaded(scene: &Scene) -> bool {
         heats || part.force.iter().any(acts)
     });
     by_load || at_points || within || scene.rigid.iter().any(|set| set.applied.iter().any(|force| *force != 0.0))
-}
-
-fn is_moved(scene: &Scene) -> bool {
-    let by_support = scene.supports.iter().flat_map(|support| [&support.ux, &support.uy, &support.normal]).flatten().any(acts);
-    let by_mean = scene.means.iter().flat_map(|mean| &mean.held).any(|held| held.value != 0.0);
-    by_support || by_mean || scene.rigid.iter().any(|set| set.prescribed.iter().flatten().any(|value| *value != 0.0))
 }
 
 /// Whether the sides of a contact reach into each other before anything moves.

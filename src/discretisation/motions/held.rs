@@ -181,12 +181,14 @@ impl<'a> Restraints<'a> {
                 mechanism.motion, self.contacts[contact].pair.name
             );
         }
-        let by = if active.contains(&true) {
-            "supports and contact do not hold it"
-        } else {
-            "contact is open everywhere and supports do not hold it"
+        let (by, moved) = match (active.contains(&true), self.scene.is_moved()) {
+            (true, _) => ("supports and contact do not hold it", ""),
+            (false, is_moved) => (
+                "contact is open everywhere and supports do not hold it",
+                if is_moved { "; where what moves is to press it, refine the mesh where contact is" } else { "" },
+            ),
         };
-        format!("{name} can {}: {by}; {}", mechanism.motion, free.remedy(&touches))
+        format!("{name} can {}: {by}; {}{moved}", mechanism.motion, free.remedy(&touches))
     }
 
     /// What the closed multipliers of a contact that are this rank's resist, by the normals of body 1 and by those of body 2.
