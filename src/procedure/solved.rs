@@ -5,7 +5,7 @@ use crate::discretisation::{BY_ROUNDING, Discretisation, Solution, adrift};
 use crate::petsc::Session;
 use crate::procedure::boundary::BoundaryStep;
 use crate::procedure::coarse_solution::CoarseSolution;
-use crate::procedure::ending::Ending;
+use crate::procedure::ending::{Ending, Failure};
 use crate::procedure::estimates::Estimate;
 use crate::procedure::sets::Pass;
 use crate::system::Preconditioning;
@@ -105,6 +105,11 @@ impl Solved {
     /// Whether anything acts, or nothing was solved. The same on every rank.
     pub fn is_driven(&self) -> bool {
         !self.is_solved() || self.problem.scene.is_driven(&self.problem.finest().numbering)
+    }
+
+    /// Whether what was solved does not meet the contact conditions.
+    pub fn violates_contact(&self) -> bool {
+        matches!(self.ending, Ending::NotConverged(Failure::ConditionsViolated(_)))
     }
 
     /// Whether there are displacements to look at.

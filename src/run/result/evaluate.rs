@@ -3,7 +3,7 @@
 use super::figures::Shown;
 use crate::output::summary::{ContactSummary, EstimateSummary, Status, Summary, listed};
 use crate::output::{CONTACTS, RunError, contacts_table, write_text};
-use crate::procedure::{Ending, Failure, Solved, Work};
+use crate::procedure::{Solved, Work};
 use crate::recovery::Evaluation;
 use crate::run::summary::bodies::largest_stresses;
 use crate::run::summary::contact::contact;
@@ -95,8 +95,7 @@ impl Run<'_> {
         let idle = solved.is_idle(self.session);
         let (mut status, mut reason) = if idle { (Status::Converged, IDLE.into()) } else { ended(solved) };
         let (converged, mut none) = (status == Status::Converged, None);
-        let may_be_adrift = matches!(solved.ending, Ending::NotConverged(Failure::ConditionsViolated(_)));
-        let loose = if idle || !converged && !may_be_adrift { None } else { adrift(self, summary, solved) };
+        let loose = if idle || !converged && !solved.violates_contact() { None } else { adrift(self, summary, solved) };
         if converged && !idle {
             missed.iter().for_each(|missed| self.report.say(&format!("missed: {missed}")));
             let missed = (self.case.exact.must_hold && !missed.is_empty())
