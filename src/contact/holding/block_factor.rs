@@ -41,16 +41,19 @@ pub fn least_degrees(count: usize, coupled: impl Iterator<Item = (usize, usize)>
     order
 }
 
+/// Blocks of a column, by their places.
+type BlockColumn = Vec<(usize, Matrix3<f64>)>;
+
 /// `A = L D Lᵀ` in the order of elimination.
 pub struct BlockFactor {
     /// Where each row stands in the order.
     place: Vec<usize>,
     /// Blocks of L below each place, by ascending places.
-    columns: Vec<Vec<(usize, Matrix3<f64>)>>,
+    columns: Vec<BlockColumn>,
     /// Blocks of D, and their factors.
     pivots: Vec<(Matrix3<f64>, Cholesky<f64, Const<3>>)>,
     /// Columns of `D^(-1/2) L⁻¹` by rows, as soon as somebody has asked for them: each is that of many contacts.
-    halves: Vec<OnceCell<Vec<(usize, Matrix3<f64>)>>>,
+    halves: Vec<OnceCell<BlockColumn>>,
 }
 
 impl BlockFactor {
@@ -68,7 +71,7 @@ impl BlockFactor {
             let mut below = std::mem::take(&mut rest[at]);
             let pivot = below.remove(&at)?;
             let factor = Cholesky::new(pivot)?;
-            let column: Vec<(usize, Matrix3<f64>)> =
+            let column: BlockColumn =
                 below.iter().map(|(&row, block)| (row, factor.solve(&block.transpose()).transpose())).collect();
             for (k, (&other, block)) in below.iter().enumerate() {
                 for (row, factor_block) in &column[k..] {
@@ -151,7 +154,7 @@ impl BlockFactor {
     }
 
     /// Blocks of `D^(-1/2) L⁻¹` in the column of a row, by places.
-    fn half(&self, row: usize) -> Vec<(usize, Matrix3<f64>)> {
+    fn half(&self, row: usize) -> BlockColumn {
         let (mut values, mut half) = (vec![Matrix3::zeros(); self.place.len()], Vec::new());
         values[self.place[row]] = Matrix3::identity();
         let mut next = Some(self.place[row]);
