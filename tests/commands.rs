@@ -317,7 +317,7 @@ fn a_folder_that_cannot_be_made_ends_all_ranks() {
     std::fs::write(folder.path().join("result"), "a file").expect("a file");
     let ended = Run::case("patch_flat").ranks(3).ended_in(folder);
     assert_eq!(ended.code, Some(2), "{}", ended.said());
-    assert!(ended.time < SOON && ended.errors.contains("is not a folder"), "{}", ended.said());
+    assert!(ended.time < SOON && ended.errors.contains("is no folder, or a link to one"), "{}", ended.said());
 }
 
 /// Ranks of one run with different words: all end, and are told which.

@@ -42,18 +42,18 @@ pub fn least_degrees(count: usize, coupled: impl Iterator<Item = (usize, usize)>
 }
 
 /// Blocks of a column, by their places.
-type BlockColumn = Vec<(usize, Matrix3<f64>)>;
+type PlacedBlocks = Vec<(usize, Matrix3<f64>)>;
 
 /// `A = L D Lᵀ` in the order of elimination.
 pub struct BlockFactor {
     /// Where each row stands in the order.
     place: Vec<usize>,
     /// Blocks of L below each place, by ascending places.
-    columns: Vec<BlockColumn>,
+    columns: Vec<PlacedBlocks>,
     /// Blocks of D, and their factors.
     pivots: Vec<(Matrix3<f64>, Cholesky<f64, Const<3>>)>,
     /// Columns of `D^(-1/2) L⁻¹` by rows, as soon as somebody has asked for them: each is that of many contacts.
-    halves: Vec<OnceCell<BlockColumn>>,
+    halves: Vec<OnceCell<PlacedBlocks>>,
 }
 
 impl BlockFactor {
@@ -71,7 +71,7 @@ impl BlockFactor {
             let mut below = std::mem::take(&mut rest[at]);
             let pivot = below.remove(&at)?;
             let factor = Cholesky::new(pivot)?;
-            let column: BlockColumn =
+            let column: PlacedBlocks =
                 below.iter().map(|(&row, block)| (row, factor.solve(&block.transpose()).transpose())).collect();
             for (k, (&other, block)) in below.iter().enumerate() {
                 for (row, factor_block) in &column[k..] {
@@ -154,7 +154,7 @@ impl BlockFactor {
     }
 
     /// Blocks of `D^(-1/2) L⁻¹` in the column of a row, by places.
-    fn half(&self, row: usize) -> BlockColumn {
+    fn half(&self, row: usize) -> PlacedBlocks {
         let (mut values, mut half) = (vec![Matrix3::zeros(); self.place.len()], Vec::new());
         values[self.place[row]] = Matrix3::identity();
         let mut next = Some(self.place[row]);

@@ -286,10 +286,8 @@ pub fn contact_lines(contacts: &[Contact], units: &Units) -> Vec<String> {
     }
     let words = |contact: &Contact| {
         let (name, segments, length) = (&contact.pair.name, contact.boundary.segments(), length(contact.boundary.length()));
-        format!(
-            "contact {name}: {segments} segments over a length of {length}{unit}, {} multipliers",
-            contact.multipliers.count()
-        )
+        let (what, count) = (if segments == 1 { "segment" } else { "segments" }, contact.multipliers.count());
+        format!("contact {name}: {segments} {what} over a length of {length}{unit}, {count} multipliers")
     };
     contacts.iter().map(words).collect()
 }

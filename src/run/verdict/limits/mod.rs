@@ -67,6 +67,10 @@ impl Limit {
     pub fn doubt(&'static self, value: f64, named: &[(&str, &str)]) -> Doubt {
         let word = |name: &str| match (named.iter().find(|(known, _)| *known == name), name) {
             (Some((_, word)), _) => (*word).into(),
+            // A value that passes its limit by less than its digits tell has more of them.
+            (None, "value") if [(self.digits)(self.value), self.value.to_string()].contains(&(self.digits)(value)) => {
+                format!("{value:.4}")
+            }
             (None, "value") => (self.digits)(value),
             (None, "limit") => self.value.to_string(),
             // In the digits of the value, where both may be near each other.

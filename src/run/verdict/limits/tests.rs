@@ -83,6 +83,16 @@ fn the_method_shows_every_limit() {
     }
 }
 
+#[test]
+fn a_value_just_beyond_its_limit_is_told_from_it() {
+    let told = |value| ALL_OVER.judge(Some(value), &[]).expect("a doubt").figure;
+    assert!(
+        told(0.0604).contains("0.0604, at most 0.06 wanted") && told(0.074).contains("0.07, at most 0.06 wanted"),
+        "{}",
+        told(0.0604)
+    );
+}
+
 const METHOD: &str = include_str!("../../../../docs/method.md");
 const LIMITS: &str = include_str!("../../../../docs/limits.md");
 const HARD_CASES: &str = include_str!("../../../../docs/hard-cases.md");
