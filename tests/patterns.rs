@@ -196,29 +196,6 @@ fn one_pattern_on_both_sides_joins_each_pair_once() {
     assert!(code == Some(2) && errors.contains("no two of these lie close and face each other: \"disc4\", and"), "{errors}");
 }
 
-/// Short sides that are too far apart for a fit are passed over, unless a gap says that they meet: teeth of a gear beside those that
-/// touch.
-#[test]
-fn a_pattern_passes_over_short_sides_that_lie_apart() {
-    let bar = |from: f64| grid(8, 2, 1, move |u, v| [from + 10.0 * u, v]);
-    let sides = [["", "a.end", "", ""], ["", "b.end", "", "b.root"], ["", "", "", "c.root"]];
-    let bodies = ["a", "b", "c"].into_iter().zip([-10.0, 0.0, 10.5]).zip(sides);
-    let mesh = Mesh { bodies: bodies.map(|((name, from), sides)| (name, bar(from), sides)).collect() };
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    for (gap, wanted) in [("", "1 contact: all.a.end.b.root"), (", gap = 0.0", "2 contacts: all.a.end.b.root, all.b.end.c.root")]
-    {
-        let case = format!(
-            "mesh = {{ file = \"mesh.msh\" }}
-             body.\"*\" = {{ young = 1.0, poisson = 0.3 }}
-             support.still = {{ body = \"*\", mean = true, ux = 0.0, uy = 0.0, angle = 0.0 }}
-             contact.all = {{ between = [\"*.end\", \"*.root\"]{gap} }}\n"
-        );
-        let file = write_scene(folder.path(), &mesh.text(), &case).display().to_string();
-        let (_, output, errors) = mezha(None, &["check", &file]);
-        assert!(output.contains(wanted), "{gap}: {output}{errors}");
-    }
-}
-
 /// The command line speaks of what a pattern stands for, by its name, by the table that it stands in, and by patterns.
 #[test]
 fn what_is_set_of_one_of_many_holds_for_it() {

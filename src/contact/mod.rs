@@ -49,7 +49,7 @@ pub use drawn::{ClosePair, CloseSide, DrawnGap, Facing, WIDEST_TURN, close_pairs
 pub use finite_motion::{FiniteMotion, GapError, Turn, finite_motion};
 pub use fit::{Meeting, PointContact, hertz_width, point_contact, swings};
 pub use holding::{
-    Condition, Extent, Mechanism, Programme, ProgrammeOutcome, Touch, added_up, describe_motion, find_mechanism, is_resisted,
+    Condition, Extent, Mechanism, Programme, ProgrammeOutcome, Touch, added_up, changed_forces, describe_motion, find_mechanism,
     needed_contacts, tidy,
 };
 pub use jump_term::{Jump, SparseRows, jump_matrix, jumps};
@@ -60,6 +60,6 @@ pub use placing::{Known, Placed, place};
 pub use pressure::{Roughness, Zone, faded_end, oscillation, recovered_peak, roughness, true_end, zone_counts};
 pub use sets::{ActiveSet, SetChange, SetSolution};
 pub use side::Side;
-pub use smooth_side::{APART, Displacement, SmoothSide};
+pub use smooth_side::{Displacement, SmoothSide};
 pub use trace::{EdgeOverlap, Trace, edge_overlaps, trace};
 pub use turned_force::{TurnedForce, turned_force, wrench};

@@ -43,8 +43,8 @@ pub use held_bodies::{HeldBodies, held_motions, holds_of_bodies};
 pub use level_ranks::{SMALL, ranks_in_group};
 pub use levels::{Discretisation, WithoutContact, finest_numbering, node_count, spaces};
 pub use motions::{
-    Freedom, HeldLoad, adrift, are_resisted, few_that_hold, free_motion_if_closed, needed_contacts, not_held, not_held_if_closed,
-    rigid_motions, rigid_start, settle,
+    Freedom, HeldLoad, adrift, few_that_hold, forces_without_holds, free_motion_if_closed, needed_contacts, not_held,
+    not_held_if_closed, rigid_motions, rigid_start, settle,
 };
 pub use scene::{Scene, spread};
 pub use solution::Solution;

@@ -2,51 +2,58 @@
 
 use super::balance::Balance;
 use crate::body::MeanHold;
-use crate::discretisation::{Discretisation, Freedom, HeldLoad, Solution, are_resisted};
+use crate::discretisation::{Contact, Discretisation, HeldLoad, Solution, forces_without_holds};
 use crate::geometry::Point;
 use crate::petsc::Session;
 
-/// Forces of a hold by the largest force of a contact that they change, and of these by all forces, that are as good as none.
-const NOTHING: f64 = 1e-4;
+/// Share of all forces below which a force of a hold, or what it changes, is none.
+const NOTHING: f64 = 1e-6;
 
-/// For each contact the largest force of a hold that contact could carry, moments by the reach of the body, by the largest force of all
-/// contacts that would change then: on that body, and on others that are free and hang on it by contact. A hold that moves its body
-/// presses it. **Collective**
+/// Share of the largest force on a body below which a moment that holds its turn is what a mesh makes of a balance: seven discs in a groove have
+/// 1e-4, which narrow contacts would take by 6e-3 of their forces.
+const FAINT: f64 = 1e-3;
+
+/// Share of what changes that must press more: of a roller that is held against rolling off a wall a twentieth does, on the floor.
+const CLOSES: f64 = 0.1;
+
+/// Share of a force that must be left where nothing presses more: of a taper none is, but for what its ends make of it.
+const LEFT: f64 = 0.1;
+
+/// For each contact by how much its force would change if contact carried what a mean motion is held against, by that force: forces and
+/// moments each by themselves. A hold that moves its body presses it. **Collective**
 pub fn held_forces(problem: &Discretisation, solution: &Solution, balance: &Balance, session: &Session) -> Vec<f64> {
-    let (scene, contacts) = (&problem.scene, &problem.contacts);
-    let mut shares = vec![0.0_f64; contacts.len()];
-    if scene.means.is_empty() {
-        return shares;
-    }
-    let is_free: Vec<bool> = Freedom::of_bodies(scene).iter().map(Option::is_some).collect();
-    let changed = |hold: &MeanHold| changed_by(hold, problem, &is_free);
-    let largest =
-        |contacts: &[usize]| contacts.iter().map(|&at| balance.contacts[at].force).fold(NOTHING * balance.forces, f64::max);
+    let scene = &problem.scene;
     let reactions = balance.reactions.iter().skip(scene.supports.len() + scene.springs.len());
     let found = scene.means.iter().zip(reactions.zip(&balance.mean_moments));
-    let at_rest = found.filter(|(hold, _)| hold.held.iter().all(|held| held.value == 0.0));
+    let at_rest = found.filter(|(hold, _): &(&MeanHold, _)| hold.held.iter().all(|held| held.value == 0.0));
     let loads = at_rest.flat_map(|(hold, (&force, &moment))| {
         [HeldLoad { hold, force, moment: 0.0 }, HeldLoad { hold, force: Point::zeros(), moment }]
     });
+    let counts = |size: f64| size > NOTHING * balance.forces;
+    let is_on = |contact: &Contact, hold: &MeanHold| contact.bodies.iter().any(|&body| scene.mesh.bodies[body] == hold.body);
+    let largest = |hold: &MeanHold| {
+        let own = problem.contacts.iter().zip(&balance.contacts).filter(|(contact, _)| is_on(contact, hold));
+        own.map(|(_, found)| found.force).fold(0.0, f64::max)
+    };
     let size = |load: &HeldLoad| load.force.norm() + load.moment.abs() / load.hold.reach;
-    let counts = |load: &HeldLoad| size(load) > NOTHING * largest(&changed(load.hold));
-    let driven: Vec<HeldLoad> = loads.filter(|load| size(load) > NOTHING * NOTHING * balance.forces).filter(counts).collect();
-    for (load, _) in driven.iter().zip(are_resisted(problem, &solution.active, &driven, session)).filter(|(_, taken)| *taken) {
-        let changed = changed(load.hold);
-        let share = size(load) / largest(&changed).max(size(load));
-        changed.into_iter().for_each(|at| shares[at] = shares[at].max(share));
+    let is_driven = |load: &HeldLoad| counts(size(load)) && (load.moment == 0.0 || size(load) > FAINT * largest(load.hold));
+    let driven: Vec<HeldLoad> = loads.filter(is_driven).collect();
+    let mut shares = vec![0.0_f64; problem.contacts.len()];
+    for changes in forces_without_holds(problem, &solution.active, &driven, session).into_iter().flatten() {
+        let pairs = || changes.iter().zip(&balance.contacts).filter(|([_, size], _)| counts(*size));
+        // A taper that is held against sliding off presses nowhere without its hold.
+        let [closing, all] =
+            pairs().fold([0.0, 0.0], |[closing, all], ([sum, size], _)| [closing + 0.5 * (size + sum), all + size]);
+        let closes = closing > CLOSES * all;
+        let opens = pairs().any(|([sum, _], own)| own.force + sum < LEFT * own.force);
+        if !closes && opens {
+            continue;
+        }
+        for ((share, [_, size]), own) in
+            shares.iter_mut().zip(&changes).zip(&balance.contacts).filter(|((_, [_, size]), _)| counts(*size))
+        {
+            *share = share.max(size / own.force.abs().max(*size));
+        }
     }
     shares
-}
-
-/// The contacts of a held body, and of all free ones that hang on it by contact.
-fn changed_by(hold: &MeanHold, problem: &Discretisation, is_free: &[bool]) -> Vec<usize> {
-    let (mesh, contacts) = (&problem.scene.mesh, &problem.contacts);
-    let mut hangs: Vec<bool> = mesh.bodies.iter().map(|body| *body == hold.body).collect();
-    loop {
-        let joined = contacts.iter().filter(|contact| contact.bodies.iter().any(|&body| hangs[body]));
-        let Some(next) = joined.flat_map(|contact| contact.bodies).find(|&body| is_free[body] && !hangs[body]) else { break };
-        hangs[next] = true;
-    }
-    (0..contacts.len()).filter(|&at| contacts[at].bodies.iter().any(|&body| hangs[body])).collect()
 }

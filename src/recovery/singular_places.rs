@@ -4,7 +4,7 @@ use super::evaluation::Evaluation;
 use super::zone_ends::SAME;
 use crate::body::{CHORDS, SingularPlace, Unbounded, singular_places};
 use crate::contact::Configuration;
-use crate::discretisation::{Contact, ContactPressure, Discretisation, Solution};
+use crate::discretisation::{Contact, ContactPressure, Discretisation, Scene, Solution};
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, Region, Spot};
 use rustc_hash::FxHashMap;
@@ -59,9 +59,11 @@ fn places(problem: &Discretisation, solution: &Solution, grows: &[bool]) -> Vec<
     let scene = &problem.scene;
     let mut all = singular_places(&scene.mesh, &scene.parts(), &scene.supports, &scene.rigid);
     all.extend(scene.point_loads.iter().filter_map(|load| at_point(&scene.mesh, &load.at)));
-    let angles = scene.mesh.boundary_vertices().into_iter().map(|found| (found.vertex, found.angle)).collect();
+    let angles: FxHashMap<u32, f64> =
+        scene.mesh.boundary_vertices().into_iter().map(|found| (found.vertex, found.angle)).collect();
     let contacts = problem.contacts.iter().zip(grows);
-    all.extend(contacts.flat_map(|(contact, grows)| contact_ends((&scene.mesh, &angles), &solution.pressure(contact), *grows)));
+    let ends = contacts.flat_map(|(contact, grows)| contact_ends((&scene.mesh, &angles), &solution.pressure(contact), *grows));
+    all.extend(ends.filter(|found| !is_mirrored_by_tool(scene, &angles, found)));
     all
 }
 
@@ -116,6 +118,21 @@ fn contact_ends(
         })
     };
     found.flat_map(of_both).collect()
+}
+
+/// Whether a corner of 90 degrees or less presses on a rigid tool, which is a mirror for it: the stress has a bound there.
+fn is_mirrored_by_tool(
+    scene: &Scene,
+    angles: &FxHashMap<u32, f64>,
+    SingularPlace { body, vertex, why, .. }: &SingularPlace,
+) -> bool {
+    let Unbounded::PressingCorner(name) = why else { return false };
+    let beside_a_tool = scene.pairs.iter().filter(|pair| pair.name == *name).flat_map(|pair| &pair.between).any(|side| {
+        let edge = scene.mesh.edges_of(side).first();
+        edge.is_some_and(|&edge| scene.mesh.body_beside(edge) != *body && scene.is_rigid(scene.mesh.body_beside(edge)))
+    });
+    let angle = vertex.and_then(|vertex| angles.get(&vertex)).map_or(180.0, |angle| angle.to_degrees());
+    beside_a_tool && angle <= 90.0 + 0.5 * CHORDS
 }
 
 /// Whether one body of a contact has a corner at an end of Γ_C, and the other has none: nearest to it on both boundaries.

@@ -8,7 +8,7 @@ use crate::case::acting::rigid::{Tool, read_tool};
 use crate::case::file::error::{Log, listed};
 use crate::case::keys::{LONGEST_NAME, Section};
 use crate::case::schema::CASE;
-use crate::contact::{APART, CloseSide, close_sides};
+use crate::contact::{CloseSide, close_sides};
 use crate::geometry::Quote;
 use std::cell::RefCell;
 use std::collections::HashSet;
@@ -125,10 +125,7 @@ impl Expansion<'_> {
             };
             let sides = [first, second].map(|side| self.sides(name, side, mesh, (&tools, &known)));
             let is_known = sides.iter().all(|all| !all.is_empty());
-            // A gap that is given says that sides meet however they are drawn.
-            let is_drawn = table.get("gap").is_none_or(|gap| gap.as_str() == Some("closed"));
-            let apart = if is_drawn { APART } else { f64::INFINITY };
-            let pairs = if is_known { close(&sides, apart, mesh, &tools) } else { Vec::new() };
+            let pairs = if is_known { close(&sides, mesh, &tools) } else { Vec::new() };
             if is_known && pairs.is_empty() {
                 let there = |all: &[SideNames]| listed(all.iter().map(|side| format!("\"{}\"", Quote(&side.join(" + ")))));
                 let words = format!(
@@ -177,8 +174,8 @@ impl Expansion<'_> {
     }
 }
 
-/// Pairs of these sides that lie close, no farther apart than a share of the longer one, each once, in their order.
-fn close(sides: &[Vec<SideNames>; 2], apart: f64, mesh: &MeshNames, tools: &[Tool]) -> Vec<[SideNames; 2]> {
+/// Pairs of these sides that lie close, each once, in their order.
+fn close(sides: &[Vec<SideNames>; 2], mesh: &MeshNames, tools: &[Tool]) -> Vec<[SideNames; 2]> {
     let of: [HashSet<&SideNames>; 2] = sides.each_ref().map(|all| all.iter().collect());
     let (mut seen, mut names, mut places) = (HashSet::new(), Vec::new(), Vec::new());
     for side in sides.iter().flatten().filter(|side| seen.insert(*side)) {
@@ -194,7 +191,7 @@ fn close(sides: &[Vec<SideNames>; 2], apart: f64, mesh: &MeshNames, tools: &[Too
     }
     let among: Vec<[bool; 2]> = names.iter().map(|name| of.each_ref().map(|of| of.contains(name))).collect();
     let is_in_order = |a: usize, b: usize| among[a][0] && among[b][1];
-    let pairs = close_sides(&mesh.mesh, &places, apart, |a, b| is_in_order(a, b) || is_in_order(b, a));
+    let pairs = close_sides(&mesh.mesh, &places, |a, b| is_in_order(a, b) || is_in_order(b, a));
     let ordered = |[a, b]: [usize; 2]| {
         let (first, last) = (a.min(b), a.max(b));
         if is_in_order(first, last) { [first, last] } else { [last, first] }

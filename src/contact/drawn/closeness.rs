@@ -340,18 +340,11 @@ impl FacingSides {
     }
 }
 
-/// Pairs of sides, by their indices, that are asked for, lie close and face each other, no farther apart than a share of the longer
-/// one, in their order; no edge of two bodies is in two of them. What is asked for is the same both ways.
-pub fn close_sides(
-    mesh: &MacroMesh,
-    sides: &[CloseSide],
-    apart: f64,
-    is_asked: impl Fn(usize, usize) -> bool,
-) -> Vec<[usize; 2]> {
+/// Pairs of sides, by their indices, that are asked for, lie close and face each other, in their order; no edge of two bodies
+/// is in two of them. What is asked for is the same both ways.
+pub fn close_sides(mesh: &MacroMesh, sides: &[CloseSide], is_asked: impl Fn(usize, usize) -> bool) -> Vec<[usize; 2]> {
     let mut alike: HashMap<[Result<usize, usize>; 2], Vec<[usize; 2]>> = HashMap::new();
-    let longer = |pair: &FacingSides| pair.sides.iter().map(|&side| sides[side].length).fold(0.0, f64::max);
-    let facing = facing_sides(mesh, sides, [CLOSE * CLOSE, CLOSE], is_asked);
-    for pair in facing.into_iter().filter(|pair| pair.distance <= apart * longer(pair)) {
+    for pair in facing_sides(mesh, sides, [CLOSE * CLOSE, CLOSE], is_asked) {
         // Each tool is a body of its own.
         let others = alike.entry(pair.sides.map(|side| sides[side].body.ok_or(side))).or_default();
         let shares_edges = |other: &[usize; 2]| (0..2).any(|k| sides[other[k]].shares_edges(&sides[pair.sides[k]]));

@@ -71,6 +71,11 @@ impl Condition {
         std::iter::once(self.piece).chain(self.against).zip(&self.sees)
     }
 
+    /// What it sees of a motion of all pieces, positive where the sides come closer.
+    fn sees_of(&self, motion: &DVector<f64>) -> f64 {
+        self.parts().map(|(piece, sees)| (0..3).map(|k| sees[k] * motion[3 * piece + k]).sum::<f64>()).sum()
+    }
+
     /// How much of a motion it certainly resists. What the motion does across the direction may be mistaken for resistance,
     /// by the doubt about the direction.
     fn resists(&self, motion: &DVector<f64>) -> f64 {
@@ -125,16 +130,34 @@ pub fn needed_contacts(pieces: &[Extent], supports: &[Condition], contacts: &[To
     Holding::new(pieces, supports, contacts).needed()
 }
 
-/// Whether supports and closed contacts resist a force on a piece, with its moment about the middle by the radius, whichever body's
-/// normals count.
-pub fn is_resisted(pieces: &[Extent], supports: &[Condition], contacts: &[Touch], piece: usize, wrench: [f64; 3]) -> bool {
+/// For each closed contact the force by which it changes when a piece is pushed, with a moment about its middle by the radius, and the sum
+/// of all that presses more there or less: what equilibrium says where that sets the forces, and else of contacts that are alike. Nothing
+/// if supports and contacts do not resist the push, whichever body's normals count.
+pub fn changed_forces(
+    pieces: &[Extent],
+    supports: &[Condition],
+    contacts: &[Touch],
+    (piece, push): (usize, [f64; 3]),
+) -> Option<Vec<[f64; 2]>> {
     let holding = Holding::new(pieces, supports, contacts);
     let mut load = DVector::zeros(3 * pieces.len());
-    load.fixed_rows_mut::<3>(3 * piece).copy_from(&Vector3::from(wrench).normalize());
-    let moves = |choice: &NormalChoice| Some(load.dot(&holding.factor(choice, None)?.solve(&load)));
-    // What is held by h of a unit motion gives way by 1/h² at most.
-    let most = LEAST_HOLD.powi(-2);
-    holding.bases(&holding.curved()).iter().all(|choice| moves(choice).is_some_and(|moved| moved < most))
+    load.fixed_rows_mut::<3>(3 * piece).copy_from(&Vector3::from(push));
+    let mut changes = vec![[0.0_f64; 2]; contacts.len()];
+    for choice in holding.bases(&holding.curved()) {
+        let moved = holding.factor(&choice, None)?.solve(&load);
+        // What is held by h of a unit motion gives way by 1/h² at most.
+        if load.dot(&moved) > load.norm_squared() * LEAST_HOLD.powi(-2) {
+            return None;
+        }
+        for ((touch, &side), change) in contacts.iter().zip(&choice).zip(&mut changes) {
+            let pressed = || touch[side].iter().map(|condition| condition.sees_of(&moved));
+            let size = pressed().map(f64::abs).sum();
+            if size > change[1] {
+                *change = [pressed().sum(), size];
+            }
+        }
+    }
+    Some(changes)
 }
 
 /// For each contact the body whose normals count.

@@ -4,5 +4,7 @@ mod block_factor;
 mod mechanism;
 mod programme;
 
-pub use mechanism::{Condition, Extent, Mechanism, Touch, describe_motion, find_mechanism, is_resisted, needed_contacts, tidy};
+pub use mechanism::{
+    Condition, Extent, Mechanism, Touch, changed_forces, describe_motion, find_mechanism, needed_contacts, tidy,
+};
 pub use programme::{Programme, ProgrammeOutcome, added_up};

@@ -81,24 +81,29 @@ pub fn needed_contacts(problem: &Discretisation, active: &[bool], session: &Sess
     contact::needed_contacts(&extents, &held, &whole.touches(&extents, active))
 }
 
-/// For each force that a mean motion is held against, with its moment about the middle of the body, whether the other supports and closed
-/// contact resist it. **Collective**
-pub fn are_resisted(problem: &Discretisation, active: &[bool], loads: &[HeldLoad], session: &Session) -> Vec<bool> {
+/// For each force that a mean motion is held against what the forces of all contacts would change by without that hold, and the sums of
+/// all that would press more or less there: nothing if the other supports and closed contact do not resist it. **Collective**
+pub fn forces_without_holds(
+    problem: &Discretisation,
+    active: &[bool],
+    loads: &[HeldLoad],
+    session: &Session,
+) -> Vec<Option<Vec<[f64; 2]>>> {
     if loads.is_empty() {
         return Vec::new();
     }
     let (scene, extents) = (&problem.scene, problem.scene.extents());
     let touches = Restraints::of(problem, session).touches(&extents, active);
     let springs = spring_conditions(scene, &extents, FIRM);
-    let is_resisted = |HeldLoad { hold, force, moment }: &HeldLoad| {
+    let changed = |HeldLoad { hold, force, moment }: &HeldLoad| {
         let piece = scene.mesh.pieces.iter().position(|piece| scene.mesh.bodies[piece.body] == hold.body)?;
         let mut others = conditions_with(scene, &extents, |other| other.name != hold.name);
         others.extend(&springs);
         let moment = moment + cross(hold.middle - extents[piece].middle, *force);
-        let wrench = [force.x, force.y, moment / extents[piece].radius];
-        Some(contact::is_resisted(&extents, &others, &touches, piece, wrench))
+        let push = [force.x, force.y, moment / extents[piece].radius].map(|held| -held);
+        contact::changed_forces(&extents, &others, &touches, (piece, push))
     };
-    loads.iter().map(|load| is_resisted(load).unwrap_or(false)).collect()
+    loads.iter().map(changed).collect()
 }
 
 /// Of the open multipliers those that hold every body if they close: for one motion after the other that nothing holds, the one with

@@ -10,7 +10,7 @@ mod rigid_start;
 
 pub use freedom::Freedom;
 pub use held::{
-    HeldLoad, adrift, are_resisted, few_that_hold, free_motion_if_closed, needed_contacts, not_held, not_held_if_closed,
+    HeldLoad, adrift, few_that_hold, forces_without_holds, free_motion_if_closed, needed_contacts, not_held, not_held_if_closed,
 };
 pub use rigid_motion::{rigid_motions, settle};
 pub use rigid_start::rigid_start;

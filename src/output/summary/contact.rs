@@ -59,7 +59,7 @@ pub struct ContactSummary {
     pub direction_error: Option<f64>,
     /// λ where another contact goes on smoothly from this one and only one of both presses, by its largest; 0 elsewhere.
     pub cut_at_joint: Option<f64>,
-    /// Force of held mean motions on its bodies that contact could carry, by the largest force of a contact there.
+    /// By how much its force would change if contact carried what mean motions are held against, by that force.
     pub held_force: Option<f64>,
     /// The contacts that go on smoothly from it, and press where they meet, too.
     pub shares_with: Vec<String>,

@@ -193,3 +193,28 @@ fn what_is_needed_is_what_leaves_a_motion_when_it_is_gone() {
     let fixed = [held, vec![one_point(&pieces, 1, None, 1.0, 3.0, Y)]].concat();
     assert_eq!(same(&pieces, &fixed, &[contact]), 0);
 }
+
+/// A body on two flanks, one point each, and one that may turn on a flat: forces as statics sets them.
+#[test]
+fn a_push_changes_forces_as_statics_says() {
+    let (pieces, slope) = (two(), 0.05_f64);
+    let supports = [held(0), vec![hold(1, 0.0, 1.0, X), hold(1, 2.0, 1.0, Y), hold(1, 0.0, 1.0, Y)]].concat();
+    let turn = &supports[..4];
+    let flank = |x: f64, way: f64| {
+        let normal = Point::new(way * slope.sin(), -slope.cos());
+        [1, 0].map(|piece| vec![one_point(&pieces, piece, Some(1 - piece), x, 1.0, if piece == 1 { normal } else { -normal })])
+    };
+    let flanks = [flank(1.5, 1.0), flank(0.5, -1.0)];
+    let angle = Condition { piece: 1, against: None, sees: [[0.0, 0.0, 1.0], [0.0; 3]], doubt: 0.0 };
+    let held = [&supports[..3], &[angle]].concat();
+    let changes = changed_forces(&pieces, &held, &flanks, (1, [1.0, 0.0, 0.0])).expect("flanks resist it");
+    let wanted = 0.5 / slope.sin();
+    for ([sum, size], sign) in changes.into_iter().zip([1.0, -1.0]) {
+        assert!((sum - sign * wanted).abs() < 1e-6 * wanted && (size - wanted).abs() < 1e-6 * wanted, "{sum} {size}");
+    }
+    // Nothing resists a shift along a flat, and a flat resists a turn by its ends.
+    let flat = [touching(&pieces, &[0.0, 2.0])];
+    assert_eq!(changed_forces(&pieces, &supports[..3], &flat, (1, [1.0, 0.0, 0.0])), None);
+    let by_ends = changed_forces(&pieces, turn, &flat, (1, [0.0, 0.0, 1.0])).expect("its ends resist it");
+    assert!(by_ends[0][0].abs() < 1e-6 && (by_ends[0][1] - 1.0).abs() < 1e-6, "{by_ends:?}");
+}

@@ -188,12 +188,12 @@ pub static DIRECTION: Limit = most((0.01, two_digits, Words("take curve = \"fit\
     "forces turn with the bodies",
     "the bodies roll, slide or turn, and forces on them with them: this one wrong by about {value} (relative), at most {bound} wanted"));
 
-/// `held_force`: what a mean motion is held against though contact resists it, by the largest force on the body. A roller in a groove whose
-/// `ux` was held, too, pressed its flanks with 222 each under a load that takes 155 and 289; the force is off by as much as is held.
+/// `held_force`: change of the force if contact carried what a mean motion is held against, by the force. A roller in a groove whose `ux`
+/// was held, too, pressed its flanks with 222 each under a load that takes 155 and 289, which this tells: .300.
 pub static HELD_FORCE: Limit = most((TRUSTED_FORCE, two_digits,
     Words("hold of these bodies no more than `mezha check` proposes without that support"),
     "a held mean motion carries what contact could",
-    "the mean motion of a body is held against {value} of the largest force on it, at most {bound} wanted, and contact could carry that"));
+    "a mean motion is held against what contact could carry, which changes its force by {value}, at most {bound} wanted"));
 
 const TURNING_CAUSE: &str = "the bodies turn too far";
 const TURN_LESS: &str = "the theory is that of small rotations: draw the bodies as they lie after turning, and turn them by less";

@@ -153,7 +153,7 @@ fn a_file_is_no_folder() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("file");
     fs::write(&out, "mine").unwrap();
-    assert!(error(&out, "bars").contains("is not a folder"));
+    assert!(error(&out, "bars").contains("is no folder"));
 }
 
 #[test]
