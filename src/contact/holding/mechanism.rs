@@ -132,7 +132,7 @@ pub fn needed_contacts(pieces: &[Extent], supports: &[Condition], contacts: &[To
 
 /// For each closed contact the force by which it changes when a piece is pushed, with a moment about its middle by the radius, and the sum
 /// of all that presses more there or less: what equilibrium says where that sets the forces, and else of contacts that are alike. Nothing
-/// if supports and contacts do not resist the push, whichever body's normals count.
+/// if supports and contacts do not resist the push, whichever body's normals count, or if a body is to turn that may roll.
 pub fn changed_forces(
     pieces: &[Extent],
     supports: &[Condition],
@@ -140,10 +140,17 @@ pub fn changed_forces(
     (piece, push): (usize, [f64; 3]),
 ) -> Option<Vec<[f64; 2]>> {
     let holding = Holding::new(pieces, supports, contacts);
+    let curved = holding.curved();
+    // Where a round body presses, it goes on as it turns.
+    let is_own = |condition: &Condition| condition.piece == piece || condition.against == Some(piece);
+    let rolls = || curved.iter().any(|&at| contacts[at].iter().flatten().any(is_own));
+    if push[..2] == [0.0; 2] && rolls() {
+        return None;
+    }
     let mut load = DVector::zeros(3 * pieces.len());
     load.fixed_rows_mut::<3>(3 * piece).copy_from(&Vector3::from(push));
     let mut changes = vec![[0.0_f64; 2]; contacts.len()];
-    for choice in holding.bases(&holding.curved()) {
+    for choice in holding.bases(&curved) {
         let moved = holding.factor(&choice, None)?.solve(&load);
         // What is held by h of a unit motion gives way by 1/h² at most.
         if load.dot(&moved) > load.norm_squared() * LEAST_HOLD.powi(-2) {

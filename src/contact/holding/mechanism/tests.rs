@@ -217,4 +217,7 @@ fn a_push_changes_forces_as_statics_says() {
     assert_eq!(changed_forces(&pieces, &supports[..3], &flat, (1, [1.0, 0.0, 0.0])), None);
     let by_ends = changed_forces(&pieces, turn, &flat, (1, [0.0, 0.0, 1.0])).expect("its ends resist it");
     assert!(by_ends[0][0].abs() < 1e-6 && (by_ends[0][1] - 1.0).abs() < 1e-6, "{by_ends:?}");
+    // A disc that turns presses elsewhere.
+    let (round, below, contact) = disc(0.1, 0.0);
+    assert_eq!(changed_forces(&round, &below, &[contact], (1, [0.0, 0.0, 1.0])), None);
 }
