@@ -130,8 +130,8 @@ pub const CUT: f64 = 0.1;
 /// Force of a contact narrower than its segment by that of an overlap within it at most (Hertz): π / (4 ln(4 R/b) - 2), and R > 5 b.
 pub const HERTZ_BY_UNRESOLVED: f64 = 0.32;
 
-/// A force below this share of what overlaps within segments are worth is what solves leave: 1e-10 to 1.6e-9 of it in a sleeve that is loose between the
-/// heads of a hot bolt, where nothing else presses. What mesh and segments are too coarse for carries a hundredth of that and more.
+/// A force below this share of what overlaps within segments are worth is what solves leave: 1e-10 to 1.6e-9 of it in a sleeve that is
+/// loose between the heads of a hot bolt, where nothing else presses. What mesh and segments are too coarse for carries a hundredth of that and more.
 pub const ROUNDING_BY_OVERLAP: f64 = 1e-6;
 
 /// The share of the largest force of all contacts below which one only touches: the smallest error that is asked for, if any is.

@@ -9,8 +9,8 @@ use crate::petsc::Session;
 /// Share of all forces below which a force of a hold, or what it changes, is none.
 const NOTHING: f64 = 1e-6;
 
-/// Share of the largest force on a body below which a moment that holds its turn is what a mesh makes of a balance: seven discs in a groove have
-/// 1e-4, which narrow contacts would take by 6e-3 of their forces.
+/// Share of the largest force on a body below which a moment that holds its turn is what a mesh makes of a balance: seven discs in a
+/// groove have 1e-4, which narrow contacts would take by 6e-3 of their forces.
 const FAINT: f64 = 1e-3;
 
 /// Share of what changes that must press more: of a roller that is held against rolling off a wall a twentieth does, on the floor.
@@ -40,13 +40,8 @@ pub fn held_forces(problem: &Discretisation, solution: &Solution, balance: &Bala
     let driven: Vec<HeldLoad> = loads.filter(is_driven).collect();
     let mut shares = vec![0.0_f64; problem.contacts.len()];
     for changes in forces_without_holds(problem, &solution.active, &driven, session).into_iter().flatten() {
-        let pairs = || changes.iter().zip(&balance.contacts).filter(|([_, size], _)| counts(*size));
-        // A taper that is held against sliding off presses nowhere without its hold.
-        let [closing, all] =
-            pairs().fold([0.0, 0.0], |[closing, all], ([sum, size], _)| [closing + 0.5 * (size + sum), all + size]);
-        let closes = closing > CLOSES * all;
-        let opens = pairs().any(|([sum, _], own)| own.force + sum < LEFT * own.force);
-        if !closes && opens {
+        let counting = changes.iter().zip(&balance.contacts).filter(|([_, size], _)| counts(*size));
+        if !could_carry(&counting.map(|(change, own)| (*change, own.force)).collect::<Vec<_>>()) {
             continue;
         }
         for ((share, [_, size]), own) in
@@ -56,4 +51,26 @@ pub fn held_forces(problem: &Discretisation, solution: &Solution, balance: &Bala
         }
     }
     shares
+}
+
+/// Whether contact could carry what changes it so, by the change of each force with the sum of all that presses more or less, and the
+/// force itself: something presses more, or enough is left everywhere. A taper that is held against sliding off presses nowhere without
+/// its hold.
+fn could_carry(contacts: &[([f64; 2], f64)]) -> bool {
+    let closing: f64 = contacts.iter().map(|([sum, size], _)| 0.5 * (size + sum)).sum();
+    let all: f64 = contacts.iter().map(|([_, size], _)| size).sum();
+    closing > CLOSES * all || contacts.iter().all(|([sum, _], own)| own + sum >= LEFT * own)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn contact_could_carry_what_presses_more_or_leaves_enough() {
+        assert!(could_carry(&[([67.0, 67.0], 222.0), ([-67.0, 67.0], 222.0)]), "a roller between two flanks");
+        assert!(could_carry(&[([-21.3, 21.3], 41.3)]), "a block that is held against a wall, too");
+        assert!(!could_carry(&[([-95.0, 95.0], 95.6)]), "a taper that is held against sliding off");
+        assert!(!could_carry(&[([0.0, 0.45], 78.5), ([-3.9, 3.9], 1.2)]), "a roller that is held against rolling off a wall");
+    }
 }

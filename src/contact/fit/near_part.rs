@@ -132,25 +132,25 @@ pub fn only_near_part<'a>(
     }
     let [own, other] = [k, 1 - k].map(|k| &pair.between[k]);
     let (splits, remedy) = what_splits(&sides[k], &touching);
-    Err(format!("\"{own}\" {splits} touch \"{other}\"; {OF_ITS_OWN}{remedy}"))
+    Err(format!("\"{own}\" {splits} touch \"{other}\"; {remedy}"))
 }
 
-/// Why the stretches of a boundary that touch are several, in words between its name and "touch", and what else may be done.
-fn what_splits(sides: &[SmoothSide], touching: &[usize]) -> (String, &'static str) {
+/// Why the stretches of a boundary that touch are several, in words between its name and "touch", and what may be done.
+fn what_splits(sides: &[SmoothSide], touching: &[usize]) -> (String, String) {
     let others = |k: usize| (0..sides.len()).filter(move |&other| other != k).map(move |other| (k, other));
     let turns = touching.iter().flat_map(|&k| others(k)).filter_map(|(k, other)| corner(&sides[k], &sides[other]));
     let count = touching.len();
     match turns.reduce(f64::max) {
-        None => (format!("is of pieces that do not hang together, {count} of which"), ""),
+        None => (format!("is of pieces that do not hang together, {count} of which"), OF_ITS_OWN.into()),
         Some(_) if is_torn(sides, touching) => (
             format!("is torn where its nodes lie on each other and are not merged, and {count} of its pieces"),
-            "; merge the nodes (`Coherence Mesh` in Gmsh)",
+            "merge the nodes (`Coherence Mesh` in Gmsh)".into(),
         ),
         Some(turn) if turn < JOINT => (
             format!("is of pieces with different shapes, {count} of which"),
-            "; if they are one curve, mesh it finer where they meet",
+            format!("{OF_ITS_OWN}; if they are one curve, mesh it finer where they meet"),
         ),
-        Some(_) => (format!("has corners of more than 20 degrees, and {count} of its smooth stretches"), ""),
+        Some(_) => (format!("has corners of more than 20 degrees, and {count} of its smooth stretches"), OF_ITS_OWN.into()),
     }
 }
 

@@ -71,11 +71,6 @@ impl Condition {
         std::iter::once(self.piece).chain(self.against).zip(&self.sees)
     }
 
-    /// What it sees of a motion of all pieces, positive where the sides come closer.
-    fn sees_of(&self, motion: &DVector<f64>) -> f64 {
-        self.parts().map(|(piece, sees)| (0..3).map(|k| sees[k] * motion[3 * piece + k]).sum::<f64>()).sum()
-    }
-
     /// How much of a motion it certainly resists. What the motion does across the direction may be mistaken for resistance,
     /// by the doubt about the direction.
     fn resists(&self, motion: &DVector<f64>) -> f64 {
@@ -128,43 +123,6 @@ pub fn find_mechanism(pieces: &[Extent], supports: &[Condition], contacts: &[Tou
 /// For each closed contact whether some piece can move without it.
 pub fn needed_contacts(pieces: &[Extent], supports: &[Condition], contacts: &[Touch]) -> Vec<bool> {
     Holding::new(pieces, supports, contacts).needed()
-}
-
-/// For each closed contact the force by which it changes when a piece is pushed, with a moment about its middle by the radius, and the sum
-/// of all that presses more there or less: what equilibrium says where that sets the forces, and else of contacts that are alike. Nothing
-/// if supports and contacts do not resist the push, whichever body's normals count, or if a body is to turn that may roll.
-pub fn changed_forces(
-    pieces: &[Extent],
-    supports: &[Condition],
-    contacts: &[Touch],
-    (piece, push): (usize, [f64; 3]),
-) -> Option<Vec<[f64; 2]>> {
-    let holding = Holding::new(pieces, supports, contacts);
-    let curved = holding.curved();
-    // Where a round body presses, it goes on as it turns.
-    let is_own = |condition: &Condition| condition.piece == piece || condition.against == Some(piece);
-    let rolls = || curved.iter().any(|&at| contacts[at].iter().flatten().any(is_own));
-    if push[..2] == [0.0; 2] && rolls() {
-        return None;
-    }
-    let mut load = DVector::zeros(3 * pieces.len());
-    load.fixed_rows_mut::<3>(3 * piece).copy_from(&Vector3::from(push));
-    let mut changes = vec![[0.0_f64; 2]; contacts.len()];
-    for choice in holding.bases(&curved) {
-        let moved = holding.factor(&choice, None)?.solve(&load);
-        // What is held by h of a unit motion gives way by 1/h² at most.
-        if load.dot(&moved) > load.norm_squared() * LEAST_HOLD.powi(-2) {
-            return None;
-        }
-        for ((touch, &side), change) in contacts.iter().zip(&choice).zip(&mut changes) {
-            let pressed = || touch[side].iter().map(|condition| condition.sees_of(&moved));
-            let size = pressed().map(f64::abs).sum();
-            if size > change[1] {
-                *change = [pressed().sum(), size];
-            }
-        }
-    }
-    Some(changes)
 }
 
 /// For each contact the body whose normals count.
@@ -434,6 +392,8 @@ pub fn tidy(v: f64, large: f64) -> String {
         if decimals > 0 { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
     }
 }
+
+pub mod changed_forces;
 
 #[cfg(test)]
 mod tests;

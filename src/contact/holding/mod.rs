@@ -4,7 +4,6 @@ mod block_factor;
 mod mechanism;
 mod programme;
 
-pub use mechanism::{
-    Condition, Extent, Mechanism, Touch, changed_forces, describe_motion, find_mechanism, needed_contacts, tidy,
-};
+pub use mechanism::changed_forces::changed_forces;
+pub use mechanism::{Condition, Extent, Mechanism, Touch, describe_motion, find_mechanism, needed_contacts, tidy};
 pub use programme::{Programme, ProgrammeOutcome, added_up};

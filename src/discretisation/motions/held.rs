@@ -13,7 +13,7 @@ use crate::discretisation::levels::Discretisation;
 use crate::discretisation::motions::free_motion::FreeMotion;
 use crate::discretisation::scene::Scene;
 use crate::element::{Order, Plane};
-use crate::geometry::{AXES, Point, cross};
+use crate::geometry::{AXES, Point};
 use crate::mesh::{Level, MacroMesh, Numbering, SmoothNormals, each_once};
 use crate::petsc::Session;
 use std::collections::{HashMap, HashSet};
@@ -23,17 +23,7 @@ use std::ops::Range;
 const ALIKE: f64 = 0.99;
 
 /// Stiffness of springs by Young's modulus of their body below which equilibrium sets the force of a contact beside them, to a hundredth.
-const FIRM: f64 = 1e-2;
-
-/// What a mean motion is held against.
-pub struct HeldLoad<'a> {
-    /// The hold.
-    pub hold: &'a MeanHold,
-    /// Force per thickness.
-    pub force: Point,
-    /// Moment about the middle of the body (force).
-    pub moment: f64,
-}
+pub(super) const FIRM: f64 = 1e-2;
 
 /// Words for a body that neither supports nor the active multipliers hold; nothing if all are held. **Collective**
 pub fn not_held(problem: &Discretisation, active: &[bool], session: &Session) -> Option<String> {
@@ -81,31 +71,6 @@ pub fn needed_contacts(problem: &Discretisation, active: &[bool], session: &Sess
     contact::needed_contacts(&extents, &held, &whole.touches(&extents, active))
 }
 
-/// For each force that a mean motion is held against what the forces of all contacts would change by without that hold, and the sums of
-/// all that would press more or less there: nothing if the other supports and closed contact do not resist it. **Collective**
-pub fn forces_without_holds(
-    problem: &Discretisation,
-    active: &[bool],
-    loads: &[HeldLoad],
-    session: &Session,
-) -> Vec<Option<Vec<[f64; 2]>>> {
-    if loads.is_empty() {
-        return Vec::new();
-    }
-    let (scene, extents) = (&problem.scene, problem.scene.extents());
-    let touches = Restraints::of(problem, session).touches(&extents, active);
-    let springs = spring_conditions(scene, &extents, FIRM);
-    let changed = |HeldLoad { hold, force, moment }: &HeldLoad| {
-        let piece = scene.mesh.pieces.iter().position(|piece| scene.mesh.bodies[piece.body] == hold.body)?;
-        let mut others = conditions_with(scene, &extents, |other| other.name != hold.name);
-        others.extend(&springs);
-        let moment = moment + cross(hold.middle - extents[piece].middle, *force);
-        let push = [force.x, force.y, moment / extents[piece].radius].map(|held| -held);
-        contact::changed_forces(&extents, &others, &touches, (piece, push))
-    };
-    loads.iter().map(changed).collect()
-}
-
 /// Of the open multipliers those that hold every body if they close: for one motion after the other that nothing holds, the one with
 /// the largest `force` on the contact that the loads drive the body against, or on any of its contacts where there is none. In a box
 /// with clearance the wall that a body is driven off may be as near as the one that stops it. **Collective**
@@ -127,7 +92,7 @@ pub fn few_that_hold(problem: &Discretisation, active: &[bool], force: impl Fn(u
 }
 
 /// Everything that holds bodies. Rigid motions are those of the undeformed bodies: a disc that is pressed flat rolls on.
-struct Restraints<'a> {
+pub(super) struct Restraints<'a> {
     scene: &'a Scene,
     numbering: &'a Numbering,
     contacts: &'a [Contact],
@@ -138,7 +103,7 @@ struct Restraints<'a> {
 }
 
 impl<'a> Restraints<'a> {
-    fn of(problem: &'a Discretisation, session: &'a Session) -> Self {
+    pub(super) fn of(problem: &'a Discretisation, session: &'a Session) -> Self {
         Self {
             scene: &problem.scene,
             numbering: &problem.finest().numbering,
@@ -149,7 +114,7 @@ impl<'a> Restraints<'a> {
     }
 
     /// What the closed multipliers of all contacts resist, the same on every rank. **Collective**
-    fn touches(&self, extents: &[Extent], active: &[bool]) -> Vec<Touch> {
+    pub(super) fn touches(&self, extents: &[Extent], active: &[bool]) -> Vec<Touch> {
         let own: Vec<Touch> = self.contacts.iter().map(|contact| self.touch(contact, extents, active)).collect();
         match self.shared {
             Some((session, _)) => of_all_ranks(&own, session),
@@ -276,7 +241,7 @@ pub fn support_conditions(scene: &Scene, extents: &[Extent]) -> Vec<Condition> {
 }
 
 /// Everything that supports hold, of mean motions those that count.
-fn conditions_with(scene: &Scene, extents: &[Extent], counts: impl Fn(&MeanHold) -> bool) -> Vec<Condition> {
+pub(super) fn conditions_with(scene: &Scene, extents: &[Extent], counts: impl Fn(&MeanHold) -> bool) -> Vec<Condition> {
     let numbering = Numbering::new(Level { intervals: 1, order: Order::P1 }, &scene.partition);
     let along_normals = scene.supports.iter().filter(|support| support.normal.is_some());
     let normals = mean_normals(&scene.mesh, along_normals.map(|support| scene.mesh.edges_on(&support.on).collect()));
@@ -330,7 +295,7 @@ fn rigid_conditions(scene: &Scene, set: &RigidSet, extents: &[Extent]) -> Vec<Co
 }
 
 /// What springs resist at the macro vertices, if their whole boundary is this much stiffer than the body's Young's modulus.
-fn spring_conditions(scene: &Scene, extents: &[Extent], firm: f64) -> Vec<Condition> {
+pub(super) fn spring_conditions(scene: &Scene, extents: &[Extent], firm: f64) -> Vec<Condition> {
     let mesh = &scene.mesh;
     let mut all = Vec::new();
     for springs in &scene.springs {

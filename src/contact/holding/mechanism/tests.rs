@@ -1,3 +1,4 @@
+use super::changed_forces::changed_forces;
 use super::*;
 
 const X: Point = Point::new(1.0, 0.0);
