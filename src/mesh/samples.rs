@@ -81,6 +81,27 @@ pub fn fan(sides: usize) -> MacroMesh {
     MacroMesh::build(raw, Path::new("fan.msh")).expect("a good mesh")
 }
 
+/// A pin of radius 1, turned by a part of a turn, in the hole of a ring, with a clearance all around: chords of a thirty-second of a
+/// turn, and quarters "pin0" to "pin3" and "hole0" to "hole3", anticlockwise.
+pub fn quartered_pin(turn: f64, clearance: f64) -> MacroMesh {
+    const CHORDS: usize = 32;
+    let circle = |radius: f64, turn: f64| {
+        let angle = move |k: usize| std::f64::consts::TAU * (turn + k as f64 / CHORDS as f64);
+        (0..CHORDS).map(move |k| radius * Point::new(angle(k).cos(), angle(k).sin()))
+    };
+    let vertices = circle(1.0, turn).chain(circle(1.0 + clearance, 0.0)).chain(circle(1.5, 0.0)).chain([Point::zeros()]);
+    let mut raw = RawMesh { vertices: vertices.collect(), ..RawMesh::default() };
+    let at = |circle: usize, k: usize| CHORDS * circle + k % CHORDS;
+    for k in 0..CHORDS {
+        raw.add("pin", [[3 * CHORDS, at(0, k), at(0, k + 1)]]);
+        raw.add("ring", [[at(1, k), at(2, k), at(2, k + 1)], [at(1, k), at(2, k + 1), at(1, k + 1)]]);
+        raw.add_line(&format!("pin{}", 4 * k / CHORDS), [at(0, k), at(0, k + 1)]);
+        raw.add_line(&format!("hole{}", 4 * k / CHORDS), [at(1, k + 1), at(1, k)]);
+        raw.add_line("outside", [at(2, k), at(2, k + 1)]);
+    }
+    MacroMesh::build(raw, Path::new("pin.msh")).expect("a good mesh")
+}
+
 fn block(raw: &mut RawMesh, body: &str, xs: &[f64], [low, high]: [f64; 2], names: [&str; 2]) {
     let first = raw.vertices.len();
     for &x in xs {

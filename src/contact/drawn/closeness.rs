@@ -77,6 +77,16 @@ impl Sight {
     }
 }
 
+/// How a side faces another one.
+struct Faced {
+    /// Least distance along a normal (length); where they overlap by more than their straight edges do, the largest depth, negative.
+    distance: f64,
+    /// Whether they lie in the bodies of each other.
+    overlaps: bool,
+    /// Over which length.
+    length: f64,
+}
+
 /// What may be one side of a contact: boundaries of one body, or the surface of a rigid tool.
 pub struct CloseSide {
     /// Index of the body; nothing of a tool.
@@ -149,13 +159,12 @@ impl CloseSide {
         self.sights.iter().filter(|sight| sight.place >= low && sight.place <= high).collect()
     }
 
-    /// Least distance along a normal at which another side is faced, over a length, within two shares of a size, behind and ahead;
-    /// where they overlap by more than their straight edges do, the largest depth, as a negative number. And whether they lie in the
-    /// bodies of each other: far behind nothing else counts.
-    fn distance(&self, other: &Self, mesh: &MacroMesh, most: [f64; 2], size: f64) -> Option<(f64, bool)> {
+    /// How another side is faced within two shares of a size, behind and ahead: far behind only what lies in both bodies counts.
+    fn sight_of(&self, other: &Self, mesh: &MacroMesh, most: [f64; 2], size: f64) -> Option<Faced> {
         let reach = most.map(|share| share * size);
         let bows = 2.0 * (self.bow + other.bow);
         let (mut nearest, mut deepest, mut is_faced, mut behind) = (None::<f64>, 0.0_f64, false, Vec::new());
+        let mut length = 0.0;
         let farthest = 1.5 * reach[1] + self.spacing + other.spacing;
         let others = other.near(self, farthest);
         for a in self.near(other, farthest) {
@@ -165,12 +174,14 @@ impl CloseSide {
             let Some((along, b)) = faced.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs())) else { continue };
             behind.extend((along < -bows.max(ALIKE * size)).then_some((along, [a.place, b.place])));
             if is_shallow(along) {
+                length += a.spacing;
                 deepest = deepest.min(along);
                 nearest = nearest.into_iter().chain([along]).min_by(|a, b| a.abs().total_cmp(&b.abs()));
             }
         }
-        let drawn = nearest.filter(|_| is_faced).map(|nearest| (if deepest < -bows { deepest } else { nearest }, false));
-        self.depth(other, mesh, behind).map(|depth| (depth, true)).or(drawn)
+        let drawn = nearest.filter(|_| is_faced).map(|nearest| if deepest < -bows { deepest } else { nearest });
+        let depth = self.depth(other, mesh, behind);
+        depth.or(drawn).map(|distance| Faced { distance, overlaps: depth.is_some(), length })
     }
 
     /// The largest depth of places behind each other, of this side and of another, between which both bodies are, after a quarter of
@@ -184,10 +195,11 @@ impl CloseSide {
         few.find(|(_, [a, b])| [0.25, 0.75].iter().all(|t| is_held(a + *t * (b - a)))).map(|(along, _)| *along)
     }
 
-    /// Least distance along a normal at which another side is faced within `reach` where a third one is not.
-    fn distance_beside(&self, other: &Self, third: &Self, reach: f64) -> Option<f64> {
-        let (farthest, within) = (1.5 * reach + self.spacing + other.spacing.max(third.spacing), [CLOSE * reach, reach]);
-        let [others, thirds] = [other, third].map(|side| side.near(self, farthest));
+    /// Least distance along a normal at which another side is faced within `reach`, and where a third one is not.
+    fn distance_beside(&self, other: &Self, third: Option<&Self>, reach: f64) -> Option<f64> {
+        let within = [CLOSE * reach, reach];
+        let farthest = 1.5 * reach + self.spacing + third.map_or(0.0, |third| third.spacing).max(other.spacing);
+        let [others, thirds] = [Some(other), third].map(|side| side.map_or_else(Vec::new, |side| side.near(self, farthest)));
         let places =
             self.near(other, farthest).into_iter().filter(|a| !a.is_end && thirds.iter().all(|b| a.faces(b, within).is_none()));
         places.flat_map(|a| others.iter().filter_map(|b| Some(a.faces(b, within)?.abs()))).reduce(f64::min)
@@ -232,12 +244,14 @@ struct FacingSides {
     share: f64,
     /// Whether they lie in the bodies of each other.
     overlaps: bool,
+    /// Over which share of the shorter one they face each other.
+    faced: f64,
     length: f64,
 }
 
 /// All pairs of sides that face each other within two shares of the smaller of their bodies, behind and ahead, and are asked for; of
-/// a body and a tool the body comes first, of others the first body of the mesh. The nearest come first; of two names for the same
-/// place the one of the shorter boundary, which says more.
+/// a body and a tool the body comes first, of others the first body of the mesh. The nearest come first, and of those as near the ones
+/// that face each other all along; of two names for the same place the one of the shorter boundary, which says more.
 fn facing_sides(
     mesh: &MacroMesh,
     sides: &[CloseSide],
@@ -266,13 +280,14 @@ fn facing_sides(
     let facing = |[a, b]: [usize; 2]| {
         let [first, second] = [&sides[a], &sides[b]];
         let size = size(first).min(size(second));
-        let (distance, overlaps) = first.distance(second, mesh, most, size)?;
+        let Faced { distance, overlaps, length: faced } = first.sight_of(second, mesh, most, size)?;
         let distance = if distance.abs() < 1e-9 * size { 0.0 } else { distance };
+        let faced = (faced / first.length.min(second.length)).min(1.0);
         let (share, length) = (distance.abs() / size, first.length + second.length);
-        Some(FacingSides { sides: [a, b], distance, share, overlaps, length })
+        Some(FacingSides { sides: [a, b], distance, share, overlaps, faced, length })
     };
     let mut pairs: Vec<FacingSides> = candidates.into_iter().filter_map(facing).collect();
-    let order = |pair: &FacingSides| ((1e3 * pair.share).round(), pair.length);
+    let order = |pair: &FacingSides| ((1e3 * pair.share).round(), -(4.0 * pair.faced).round(), pair.length);
     pairs.sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal));
     pairs
 }
@@ -332,23 +347,26 @@ impl FacingSides {
         let shared = self.shares(sides, other);
         let [first, second] = self.sides.map(|side| &sides[side]);
         // Between two places of one edge a gap changes by as much as its chord is off.
-        let most = self.distance.abs() + (2.0 * (first.sagitta + second.sagitta)).max(ALIKE * size);
+        let chords = (2.0 * (first.sagitta + second.sagitta)).max(ALIKE * size);
         (0..2).filter(|&k| shared[k] || shared == [false; 2]).all(|k| {
             let [own, faced, third] = [self.sides[k], self.sides[1 - k], other[1 - k]].map(|side| &sides[side]);
-            own.distance_beside(faced, third, TOUCHING * size).is_some_and(|distance| distance <= most)
+            let [all, beside] = [None, Some(third)].map(|third| own.distance_beside(faced, third, TOUCHING * size));
+            beside.zip(all).is_some_and(|(beside, all)| beside <= all + chords)
         })
     }
 }
 
-/// Pairs of sides, by their indices, that are asked for, lie close and face each other, in their order; no edge of two bodies
-/// is in two of them. What is asked for is the same both ways.
+/// Pairs of sides, by their indices, that are asked for, lie close and face each other, in their order; an edge of two bodies is in
+/// two of them only where these touch beside each other. What is asked for is the same both ways.
 pub fn close_sides(mesh: &MacroMesh, sides: &[CloseSide], is_asked: impl Fn(usize, usize) -> bool) -> Vec<[usize; 2]> {
     let mut alike: HashMap<[Result<usize, usize>; 2], Vec<[usize; 2]>> = HashMap::new();
+    let sizes = body_sizes(mesh);
     for pair in facing_sides(mesh, sides, [CLOSE * CLOSE, CLOSE], is_asked) {
         // Each tool is a body of its own.
         let others = alike.entry(pair.sides.map(|side| sides[side].body.ok_or(side))).or_default();
-        let shares_edges = |other: &[usize; 2]| (0..2).any(|k| sides[other[k]].shares_edges(&sides[pair.sides[k]]));
-        if !others.iter().any(shares_edges) {
+        let size = pair.sides.iter().filter_map(|&side| sides[side].body).map(|body| sizes[body]).fold(f64::INFINITY, f64::min);
+        let is_meant = |other: &[usize; 2]| pair.shares(sides, *other) == [false; 2] || pair.is_beside(sides, *other, size);
+        if others.iter().all(is_meant) {
             others.push(pair.sides);
         }
     }
@@ -370,7 +388,7 @@ fn body_sizes(mesh: &MacroMesh) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::samples::two_blocks;
+    use crate::mesh::samples::{quartered_pin, two_blocks};
 
     /// The two blocks, the upper one moved.
     fn moved(by: Point) -> MacroMesh {
@@ -395,6 +413,38 @@ mod tests {
     fn what_lies_far_or_turns_its_back_is_none() {
         for by in [[0.0, 3.0], [9.0, 0.0], [0.0, -4.0]] {
             assert_eq!(close_pairs(&moved(by.into()), &[]), [], "{by:?}");
+        }
+    }
+
+    /// Pairs of quarters as a case gets them that joins each to each, and as they are proposed.
+    fn pairs_of_quarters(turn: f64, clearance: f64) -> [Vec<String>; 2] {
+        let mesh = quartered_pin(turn, clearance);
+        let quarters = || mesh.boundaries.iter().filter(|boundary| boundary.name != "outside");
+        let sides: Vec<CloseSide> = quarters().filter_map(|one| CloseSide::of_boundaries(&mesh, std::iter::once(one))).collect();
+        let names: Vec<&String> = quarters().map(|boundary| &boundary.name).collect();
+        let asked = close_sides(&mesh, &sides, |_, _| true).into_iter().map(|[a, b]| format!("{}-{}", names[a], names[b]));
+        let proposed = close_pairs(&mesh, &[]).into_iter().map(|pair| pair.between.join("-"));
+        let sorted = |mut pairs: Vec<String>| {
+            pairs.sort();
+            pairs
+        };
+        [sorted(asked.collect()), sorted(proposed.collect())]
+    }
+
+    #[test]
+    fn quarters_of_a_pin_join_those_of_its_hole_that_they_face() {
+        for (turn, clearance) in [(0.0, 0.02), (0.0, 0.0), (0.25, 0.02)] {
+            let [asked, proposed] = pairs_of_quarters(turn, clearance);
+            let faced = |k: usize| (k + (4.0 * turn) as usize) % 4;
+            let mut all: Vec<String> = (0..4).map(|k| format!("pin{k}-hole{}", faced(k))).collect();
+            all.sort();
+            assert_eq!((&asked, &proposed), (&all, &all), "turned by {turn}, clearance {clearance}");
+        }
+        for clearance in [0.02, 0.0] {
+            let [asked, proposed] = pairs_of_quarters(0.125, clearance);
+            let all: Vec<String> =
+                (0..4).flat_map(|k| if k < 3 { [k, k + 1] } else { [0, 3] }.map(|of| format!("pin{k}-hole{of}"))).collect();
+            assert_eq!((&asked, &proposed), (&all, &all), "turned by half a quarter, clearance {clearance}");
         }
     }
 }
