@@ -3,18 +3,17 @@
 use crate::discretisation::field::Field;
 use crate::discretisation::levels::Discretisation;
 use crate::geometry::Point;
-use crate::petsc::Session;
 
 impl Field<2> {
     /// Displacements in global axes, from this rank's unknowns in the nodes' frames. **Collective**
-    pub fn displacement(problem: &Discretisation, unknowns: &[f64], session: &Session) -> Self {
-        let mut field = Self::zeros(&problem.scene, problem.finest(), session);
+    pub fn displacement(problem: &Discretisation, unknowns: &[f64]) -> Self {
+        let mut field = Self::zeros(&problem.scene, problem.finest(), &problem.session);
         let space = problem.finest();
         for (at, (own, u)) in field.own.iter_mut().zip(unknowns.chunks_exact(2)).enumerate() {
             let u = space.to_global(space.own.start + at, Point::new(u[0], u[1]));
             *own = [u.x, u.y];
         }
-        field.fetch(session);
+        field.fetch(&problem.session);
         field
     }
 

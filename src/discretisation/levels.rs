@@ -15,6 +15,8 @@ use std::rc::Rc;
 
 /// Everything that a system is assembled from.
 pub struct Discretisation {
+    /// All ranks.
+    pub session: Session,
     /// The physics.
     pub scene: Scene,
     /// Displacement spaces, coarsest first: the macro mesh with P1.
@@ -67,6 +69,7 @@ impl Discretisation {
         let coupling = Coupling::new(&scene, &spaces, &contacts, session)?;
         let mean_forces = vec![[0.0; 3]; scene.means.len()];
         Ok(Self {
+            session: session.clone(),
             scene,
             spaces,
             contacts,
@@ -82,8 +85,8 @@ impl Discretisation {
     ///
     /// # Errors
     /// [`SystemError::Case`] if a contact boundary cannot be measured.
-    pub fn replace(&mut self, contacts: Vec<Contact>, motion: BoundaryMotion, session: &Session) -> Result<(), SystemError> {
-        self.coupling = Coupling::new(&self.scene, &self.spaces, &contacts, session)?;
+    pub fn replace(&mut self, contacts: Vec<Contact>, motion: BoundaryMotion) -> Result<(), SystemError> {
+        self.coupling = Coupling::new(&self.scene, &self.spaces, &contacts, &self.session)?;
         (self.contacts, self.motion, self.first_set) = (contacts, motion, None);
         Ok(())
     }
@@ -108,6 +111,11 @@ impl Discretisation {
     /// Space of the finest level: the one that is solved in.
     pub fn finest(&self) -> &Space {
         &self.spaces[self.spaces.len() - 1]
+    }
+
+    /// Macro triangles that this rank owns.
+    pub fn own_triangles(&self) -> &[u32] {
+        self.scene.partition.triangles_of(self.session.rank())
     }
 
     /// The contact of a multiplier.

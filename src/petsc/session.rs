@@ -91,6 +91,14 @@ impl Session {
         })))
     }
 
+    /// A session that is not started: it can be held, and asked for nothing. Unit tests have no MPI.
+    #[cfg(test)]
+    pub fn of_unit_tests() -> Self {
+        let (farewell, defaults) = (ManuallyDrop::new(SimpleCommunicator::world()), RefCell::default());
+        let world = SimpleCommunicator::world();
+        Self(Rc::new(Inner { world, farewell, defaults, _arguments: (Vec::new(), Vec::new()), universe: None }))
+    }
+
     /// Ends PETSc and MPI, if nothing else holds the session. **Collective**
     ///
     /// # Errors

@@ -96,7 +96,7 @@ impl Procedure<'_> {
 
     /// Solves the next mesh of a sequence. **Collective**
     fn solve_next(&self, sequence: &MeshSequence) -> Result<Solved, SystemError> {
-        let predecessor = sequence.last().map(|(last, origins)| Predecessor::new(last, origins, self.session));
+        let predecessor = sequence.last().map(|(last, origins)| Predecessor::new(last, origins));
         self.solve_on_mesh(sequence.scene.clone(), predecessor.as_ref())
     }
 
@@ -132,7 +132,7 @@ impl Procedure<'_> {
         let late = self.session.any(late);
         let all = [
             (!solved.is_solved(), SequenceEnd::Unsolved),
-            (solved.is_idle(self.session) || adaptation.is_reached(), SequenceEnd::Reached),
+            (solved.is_idle() || adaptation.is_reached(), SequenceEnd::Reached),
             (late, SequenceEnd::Seconds),
             (self.is_unbounded(adaptation, solved), SequenceEnd::Unbounded),
             (is_stuck(adaptation) || !adaptation.is_reached() && self.is_adrift(solved)?, SequenceEnd::Stuck),
@@ -166,7 +166,7 @@ impl Procedure<'_> {
         let mut duals = self.duals(adaptation, solved)?.into_iter();
         for (place, goal) in adaptation.missed() {
             let own = match duals.next().flatten() {
-                Some(dual) if difference.is_some() => weighted(&solved.problem, left, &dual, self.session)?,
+                Some(dual) if difference.is_some() => weighted(&solved.problem, left, &dual)?,
                 _ => left.clone(),
             };
             let error = adaptation.error(place);

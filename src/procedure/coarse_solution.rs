@@ -56,15 +56,10 @@ pub(super) struct ContactSolution {
 impl CoarseSolution {
     /// Takes a solution and its contacts over from the mesh they were found on; `needed` are the preconditioner, and whether the
     /// active set was hard to find. **Collective**
-    pub fn new(
-        problem: Discretisation,
-        solution: Solution,
-        needed: (Preconditioning, bool),
-        session: &Session,
-    ) -> Result<Self, SystemError> {
-        let displacement = Field::displacement(&problem, &solution.displacement, session);
+    pub fn new(problem: Discretisation, solution: Solution, needed: (Preconditioning, bool)) -> Result<Self, SystemError> {
+        let displacement = Field::displacement(&problem, &solution.displacement);
         Ok(Self {
-            largest: largest_stresses(&problem, &displacement, session)?,
+            largest: largest_stresses(&problem, &displacement)?,
             displacement,
             numbering: problem.finest().numbering.clone(),
             contact: ContactSolution::new(problem.contacts, &solution, true, needed),

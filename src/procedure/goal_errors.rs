@@ -90,9 +90,9 @@ impl Procedure<'_> {
         if problem.contacts.len() == 1 || largest == 0.0 || own > SMALL * largest {
             return Ok(1.0);
         }
-        let u = Field::displacement(problem, &solution.displacement, self.session);
+        let u = Field::displacement(problem, &solution.displacement);
         let contact = &problem.contacts[at];
-        let points = trace_points(problem, &solution.pressure(contact), &u, self.session)?;
+        let points = trace_points(problem, &solution.pressure(contact), &u)?;
         let complete = points.iter().filter(|point| point.is_complete());
         let depth = complete.map(|point| -point.gap * contact.boundary.width_at(point.x)).fold(0.0, f64::max);
         let modulus = contact.moduli.iter().copied().fold(0.0, f64::max);
@@ -111,9 +111,9 @@ impl Procedure<'_> {
         if own <= least {
             return Ok(false);
         }
-        let u = Field::displacement(problem, &solution.displacement, self.session);
+        let u = Field::displacement(problem, &solution.displacement);
         let pressure = solution.pressure(contact);
-        let points = trace_points(problem, &pressure, &u, self.session)?;
+        let points = trace_points(problem, &pressure, &u)?;
         let off = unresolved_force(contact, &points, 0.0);
         let is_within_segments = off > WORTH_WITHIN_SEGMENTS * own && HERTZ_BY_UNRESOLVED * off > least;
         let has_few_edges = pressure.has_few_edges(least);
@@ -128,16 +128,16 @@ impl Procedure<'_> {
         if problem.scene.is_moved() || problem.scene.is_heated() {
             return Ok(false);
         }
-        let u = Field::displacement(problem, &solution.displacement, self.session);
+        let u = Field::displacement(problem, &solution.displacement);
         let mut loose = Vec::new();
         for contact in &problem.contacts {
             let pressure = solution.pressure(contact);
-            let off = unresolved_force(contact, &trace_points(problem, &pressure, &u, self.session)?, 0.0);
+            let off = unresolved_force(contact, &trace_points(problem, &pressure, &u)?, 0.0);
             if off > 0.0 && pressure.force().abs() < ROUNDING_BY_OVERLAP * off {
                 loose.push(contact.pair.name.clone());
             }
         }
-        Ok(solved.adrift_without(&loose, self.session).is_some())
+        Ok(solved.adrift_without(&loose).is_some())
     }
 
     /// Errors of displacement and stress at a point.
@@ -149,9 +149,9 @@ impl Procedure<'_> {
     /// Error of λ on the worst zone of a contact. **Collective**
     fn pressure_error(&self, solved: &Solved, at: usize) -> Result<Option<f64>, SystemError> {
         let Solved { problem, solution, estimate, .. } = solved;
-        let u = Field::displacement(problem, &solution.displacement, self.session);
+        let u = Field::displacement(problem, &solution.displacement);
         let pressure = solution.pressure(&problem.contacts[at]);
-        let points = trace_points(problem, &pressure, &u, self.session)?;
+        let points = trace_points(problem, &pressure, &u)?;
         let zones = pressure.zones();
         let all = estimate.of_zones(at, &pressure, &zones, &points);
         let errors: Option<Vec<f64>> = pressure.counting(&zones, &all).map(|(zone, _)| zone.pressure).collect();
@@ -170,8 +170,8 @@ impl Procedure<'_> {
         if !pressure.zones().is_empty() || estimate.difference == Some(0.0) {
             return Ok(true);
         }
-        let u = Field::displacement(problem, &solution.displacement, self.session);
-        let points = trace_points(problem, &pressure, &u, self.session)?;
+        let u = Field::displacement(problem, &solution.displacement);
+        let points = trace_points(problem, &pressure, &u)?;
         let gaps: Vec<f64> = points.iter().filter(|point| point.is_complete()).map(|point| point.gap).collect();
         let change = gaps.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
         Ok(gaps.iter().all(|gap| *gap > change))

@@ -20,7 +20,7 @@ impl Procedure<'_> {
     pub(super) fn solve_after(&self, scene: Scene, before: &Solved) -> Result<Solved, SystemError> {
         let follows = scene.pairs.iter().any(|pair| pair.follows());
         let origins: Vec<Origin> = (0..scene.mesh.triangles.len()).map(Origin::whole).collect();
-        let begin = |from_before: bool| from_before.then(|| Predecessor::new(before, &origins, self.session));
+        let begin = |from_before: bool| from_before.then(|| Predecessor::new(before, &origins));
         let found = self.solve_on_mesh(scene.clone(), begin(!follows).as_ref())?;
         if !may_come_to_more(&found.ending) {
             return Ok(found);

@@ -3,7 +3,6 @@
 use crate::discretisation::{Discretisation, Field, Scene, Solution, Space, SystemError};
 use crate::geometry::Point;
 use crate::mesh::{Origin, lattice};
-use crate::petsc::Session;
 use crate::procedure::coarse_solution::ContactSolution;
 use crate::procedure::estimates::{Estimate, energy_apart, share_left};
 use crate::procedure::solved::Solved;
@@ -24,9 +23,9 @@ pub(crate) struct Predecessor<'s> {
 
 impl<'s> Predecessor<'s> {
     /// Takes a solution over, for a mesh whose macro triangles have these origins. **Collective**
-    pub fn new(solved: &'s Solved, origins: &'s [Origin], session: &Session) -> Self {
+    pub fn new(solved: &'s Solved, origins: &'s [Origin]) -> Self {
         let Solved { problem, solution, preconditioning, is_hard, estimate, .. } = solved;
-        let displacement = Field::displacement(problem, &solution.displacement, session);
+        let displacement = Field::displacement(problem, &solution.displacement);
         let contact = ContactSolution::new(problem.contacts.clone(), solution, false, (*preconditioning, *is_hard));
         Self { problem, displacement, contact, estimate, origins }
     }
@@ -35,8 +34,8 @@ impl<'s> Predecessor<'s> {
     ///
     /// # Errors
     /// [`SystemError::Case`] if a contact boundary cannot be placed or measured on that mesh.
-    pub fn start_on(&self, scene: Scene, session: &Session) -> Result<(Discretisation, Start), SystemError> {
-        self.contact.start_on(scene, |scene, space| self.displacement(scene, space, session), session)
+    pub fn start_on(&self, scene: Scene) -> Result<(Discretisation, Start), SystemError> {
+        self.contact.start_on(scene, |scene, space| self.displacement(scene, space), &self.problem.session)
     }
 
     /// Squares of the shares that are left of the difference of a solution on the next mesh from a coarser one there, on each macro
@@ -47,26 +46,25 @@ impl<'s> Predecessor<'s> {
         problem: &Discretisation,
         solution: &Solution,
         now: &[f64],
-        session: &Session,
     ) -> Result<Vec<Option<f64>>, SystemError> {
         if self.estimate.difference.is_none() {
             return Ok(Vec::new());
         }
-        let displacement = self.displacement(&problem.scene, problem.finest(), session);
-        let apart = energy_apart(problem, solution, displacement, session)?;
+        let displacement = self.displacement(&problem.scene, problem.finest());
+        let apart = energy_apart(problem, solution, displacement)?;
         let Estimate { of_triangles, shares_left, .. } = self.estimate;
         // Of each triangle of this mesh: its difference, that of its parts, how far these are from it, and its share.
         let mut sums = vec![[0.0; 4]; self.problem.scene.mesh.triangles.len()];
-        for (k, &triangle) in self.problem.scene.partition.triangles_of(session.rank()).iter().enumerate() {
+        for (k, &triangle) in self.problem.own_triangles().iter().enumerate() {
             sums[triangle as usize][0] = of_triangles[k];
             sums[triangle as usize][3] = shares_left.get(k).copied().flatten().unwrap_or_default();
         }
-        let own = problem.scene.partition.triangles_of(session.rank());
+        let own = problem.own_triangles();
         for ((&triangle, now), apart) in own.iter().zip(now).zip(&apart) {
             let sums = &mut sums[self.origins[triangle as usize].triangle as usize];
             (sums[1], sums[2]) = (sums[1] + now, sums[2] + apart);
         }
-        session.sum(sums.as_flattened_mut());
+        problem.session.sum(sums.as_flattened_mut());
         let share = |&triangle: &u32| {
             let [before, now, apart, share] = sums[self.origins[triangle as usize].triangle as usize];
             share_left(apart, before, now).or(Some(share).filter(|share| *share > 0.0))
@@ -76,7 +74,8 @@ impl<'s> Predecessor<'s> {
 
     /// The same displacement on the next mesh: this rank's unknowns in the nodes' frames. Every rank knows it on the macro
     /// triangles that it had, and tells those that have their parts. **Collective**
-    fn displacement(&self, scene: &Scene, space: &Space, session: &Session) -> Vec<f64> {
+    fn displacement(&self, scene: &Scene, space: &Space) -> Vec<f64> {
+        let session = &self.problem.session;
         let n = space.numbering.level.intervals;
         // Displacement, and how often it was told: a node may lie in several triangles.
         let (mut sums, mut others) = (vec![[0.0; 3]; space.own.len()], Vec::new());

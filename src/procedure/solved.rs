@@ -2,7 +2,6 @@
 
 use crate::accuracy::Adaptation;
 use crate::discretisation::{BY_ROUNDING, Discretisation, Solution, adrift};
-use crate::petsc::Session;
 use crate::procedure::boundary::BoundaryStep;
 use crate::procedure::coarse_solution::CoarseSolution;
 use crate::procedure::ending::{Ending, Failure};
@@ -74,11 +73,11 @@ impl Solved {
     }
 
     /// Words for the motion that is free where some contacts, by their names, hold nothing; none without such contacts. **Collective**
-    pub fn adrift_without(&self, names: &[String], session: &Session) -> Option<String> {
+    pub fn adrift_without(&self, names: &[String]) -> Option<String> {
         let (contacts, mut active) = (&self.problem.contacts, self.solution.active.clone());
         let loose = contacts.iter().filter(|contact| names.contains(&contact.pair.name));
         loose.for_each(|contact| active[contact.range()].fill(false));
-        if names.is_empty() { None } else { adrift(&self.problem, &active, session) }
+        if names.is_empty() { None } else { adrift(&self.problem, &active, &self.problem.session) }
     }
 
     /// Displacement unknowns and Krylov iterations of all solves on each refinement of the last mesh, the coarsest first.
@@ -96,10 +95,10 @@ impl Solved {
     }
 
     /// Whether nothing acts and nothing moves but by rounding. The same on every rank. **Collective**
-    pub fn is_idle(&self, session: &Session) -> bool {
+    pub fn is_idle(&self) -> bool {
         let size = self.problem.scene.extents().iter().map(|extent| extent.radius).fold(0.0, f64::max);
         let moves = self.solution.displacement.iter().any(|value| value.abs() > BY_ROUNDING * size);
-        !self.is_driven() && !session.any(moves)
+        !self.is_driven() && !self.problem.session.any(moves)
     }
 
     /// Whether anything acts, or nothing was solved. The same on every rank.

@@ -8,7 +8,6 @@ use crate::discretisation::{
 };
 use crate::element::Plane;
 use crate::geometry::{Point, cross};
-use crate::petsc::Session;
 use crate::recovery::heat::heat_energies;
 
 /// Forces on a body below this share of those on another are what a solve leaves: nothing acts on it.
@@ -59,27 +58,27 @@ pub struct Balance {
 ///
 /// # Errors
 /// [`SystemError`] from PETSc or an inverted triangle.
-pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, session: &Session) -> Result<Balance, SystemError> {
+pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>) -> Result<Balance, SystemError> {
     let Discretisation { contacts, coupling, .. } = problem;
-    let (mut strain_of_parts, internal) = internal_forces(problem, u, session)?;
-    session.sum(&mut strain_of_parts);
-    let heat = heat_energies(problem, u, session)?;
+    let (mut strain_of_parts, internal) = internal_forces(problem, u)?;
+    problem.session.sum(&mut strain_of_parts);
+    let heat = heat_energies(problem, u)?;
     strain_of_parts.iter_mut().zip(&heat).for_each(|(strain, heat)| *strain += heat.kept - heat.work);
     // By how much the work of loads and supports exceeds that of stresses on elastic strains.
     let grown: f64 = heat.iter().map(|heat| heat.work - 2.0 * heat.kept).sum();
     let mut strain = vec![0.0; problem.scene.bodies.len()];
     let of_parts = problem.scene.mesh.parts.iter().zip(&strain_of_parts);
     of_parts.for_each(|(part, energy)| strain[part.body as usize] += energy);
-    let springs = SpringForces::new(problem, u, session);
+    let springs = SpringForces::new(problem, u);
     let NodeSums { work, bodies, mut reactions, rigid, guided } =
-        NodeSums::new(problem, solution, u, [&internal, &springs.nodes], session)?;
+        NodeSums::new(problem, solution, u, [&internal, &springs.nodes])?;
     reactions.extend(springs.reactions);
     reactions.extend(problem.mean_forces.iter().map(|&[x, y, _]| Point::new(x, y)));
     let plane = problem.scene.mesh.plane;
     let reactions = reactions.into_iter().map(|force| plane.resultant(force)).collect();
     let rigid = rigid.into_iter().map(|force| plane.resultant_with_moment(force)).collect();
     let has_springs = !problem.scene.springs.is_empty();
-    let forces = contact_forces(problem, solution, session);
+    let forces = contact_forces(problem, solution);
     let lambda_gap: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| lambda * gap).sum();
     let gaps: f64 = solution.multipliers.iter().zip(&coupling.gap).map(|(lambda, gap)| (lambda * gap).abs()).sum();
     let jumped: f64 = problem
@@ -112,7 +111,7 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>, sess
         reactions,
         mean_moments: problem.mean_forces.iter().map(|&[_, _, moment]| moment).collect(),
         rigid,
-        motions: rigid_motions(problem, &solution.displacement, session),
+        motions: rigid_motions(problem, &solution.displacement, &problem.session),
         forces: magnitudes(contacts, &forces, &bodies),
         contacts: forces,
     })

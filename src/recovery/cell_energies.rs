@@ -3,7 +3,6 @@
 use crate::discretisation::{Discretisation, Field, SystemError, agreed};
 use crate::element::{BadJacobian, by_order, energies};
 use crate::mesh::Cells;
-use crate::petsc::Session;
 
 /// Share of the energy of a triangle that lies in its middle quarter, if it lies evenly.
 const MIDDLE: f64 = 0.25;
@@ -12,12 +11,12 @@ const MIDDLE: f64 = 0.25;
 ///
 /// # Errors
 /// [`SystemError`] from an inverted triangle.
-pub fn cell_energies(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<Cells>, SystemError> {
-    let own = problem.scene.partition.triangles_of(session.rank());
+pub fn cell_energies(problem: &Discretisation, u: &Field<2>) -> Result<Vec<Cells>, SystemError> {
+    let own = problem.own_triangles();
     let one = |&triangle: &u32| {
         by_order!(problem.finest().numbering.level.order, in_triangle(problem, u, triangle as usize)).map_err(SystemError::from)
     };
-    agreed(session, own.iter().map(one).collect())
+    agreed(&problem.session, own.iter().map(one).collect())
 }
 
 fn in_triangle<const N: usize>(problem: &Discretisation, u: &Field<2>, triangle: usize) -> Result<Cells, BadJacobian> {

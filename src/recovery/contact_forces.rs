@@ -4,7 +4,6 @@ use crate::contact::Configuration;
 use crate::discretisation::{Contact, Discretisation, Solution};
 use crate::geometry::{Point, cross};
 use crate::mesh::EdgeNode;
-use crate::petsc::Session;
 
 /// Resultants of one contact, from each body's own integrals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,13 +27,13 @@ impl ContactForce {
 }
 
 /// Force, resultants and moments of each contact. **Collective**
-pub fn contact_forces(problem: &Discretisation, solution: &Solution, session: &Session) -> Vec<ContactForce> {
+pub fn contact_forces(problem: &Discretisation, solution: &Solution) -> Vec<ContactForce> {
     let of_rank = |contact: &Contact| {
-        let ContactForce { force, resultants: [a, b], moments } = contact_force(problem, contact, solution, session.rank());
+        let ContactForce { force, resultants: [a, b], moments } = contact_force(problem, contact, solution);
         [force, a.x, a.y, b.x, b.y, moments[0], moments[1]]
     };
     let mut sums: Vec<[f64; 7]> = problem.contacts.iter().map(of_rank).collect();
-    session.sum(sums.as_flattened_mut());
+    problem.session.sum(sums.as_flattened_mut());
     let whole = |[force, ax, ay, bx, by, first, second]: [f64; 7]| ContactForce {
         force,
         resultants: [Point::new(ax, ay), Point::new(bx, by)],
@@ -43,8 +42,8 @@ pub fn contact_forces(problem: &Discretisation, solution: &Solution, session: &S
     sums.into_iter().map(whole).collect()
 }
 
-/// The part of one contact that the multipliers of a rank have.
-fn contact_force(problem: &Discretisation, contact: &Contact, solution: &Solution, rank: usize) -> ContactForce {
+/// The part of one contact that the multipliers of this rank have.
+fn contact_force(problem: &Discretisation, contact: &Contact, solution: &Solution) -> ContactForce {
     let mut sum = ContactForce::default();
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let moves = contact.pair.configuration == Configuration::Deformed;
@@ -54,7 +53,7 @@ fn contact_force(problem: &Discretisation, contact: &Contact, solution: &Solutio
         let x = node.place(mesh, &space.numbering);
         if moves { x + problem.motion.at(node, mesh, space) } else { x }
     };
-    for i in problem.coupling.own(contact.range(), rank) {
+    for i in problem.coupling.own(contact.range(), problem.session.rank()) {
         let lambda = solution.multipliers[i];
         sum.force += lambda * contact.multipliers.integral(i - contact.first);
         for coupled in &problem.coupling.rows[i] {

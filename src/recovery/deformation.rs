@@ -45,16 +45,12 @@ type BodyIntegrals = [f64; 6];
 ///
 /// # Errors
 /// [`SystemError`] from an inverted triangle.
-pub fn deformations(
-    problem: &Discretisation,
-    u: &Field<2>,
-    session: &Session,
-) -> Result<(Vec<Deformation>, Vec<f64>), SystemError> {
+pub fn deformations(problem: &Discretisation, u: &Field<2>) -> Result<(Vec<Deformation>, Vec<f64>), SystemError> {
     let mesh = &problem.scene.mesh;
     let mut totals = vec![BodyIntegrals::default(); mesh.bodies.len()];
     // What neighbours need of a macro triangle: its strain, its area and its rotation.
     let mut sums = vec![[0.0; 3]; mesh.triangles.len()];
-    let own = problem.scene.partition.triangles_of(session.rank());
+    let own = problem.own_triangles();
     let added = own.iter().try_for_each(|&at| {
         let triangle = &mesh.triangles[at as usize];
         let found = by_order!(problem.finest().numbering.level.order, integrals(problem, u, at as usize))?;
@@ -62,22 +58,22 @@ pub fn deformations(
         sums[at as usize] = [found[0], found[1], found[2]];
         Ok(())
     });
-    agreed(session, added)?;
-    session.sum(totals.as_flattened_mut());
+    agreed(&problem.session, added)?;
+    problem.session.sum(totals.as_flattened_mut());
     let mut found = whole_bodies(mesh, &totals);
-    let is_own = |triangle: u32| problem.scene.partition.owner(triangle) == session.rank();
+    let is_own = |triangle: u32| problem.scene.partition.owner(triangle) == problem.session.rank();
     let beside = |edge: &u32| mesh.edges[*edge as usize].triangles.into_iter().flatten();
     let at_others =
         |&&triangle: &&u32| mesh.triangles[triangle as usize].edges.iter().flat_map(beside).any(|other| !is_own(other));
-    let borders: Vec<u32> = own.iter().filter(|triangle| session.size() > 1 && at_others(triangle)).copied().collect();
+    let borders: Vec<u32> = own.iter().filter(|triangle| problem.session.size() > 1 && at_others(triangle)).copied().collect();
     for _ in problem.scene.refine..MANY {
-        tell(&mut sums, &borders, session);
+        tell(&mut sums, &borders, &problem.session);
         sums = with_neighbours(mesh, own, &sums);
     }
-    add_largest(problem, &sums, &mut found, session);
+    add_largest(problem, &sums, &mut found);
     let sides = problem.contacts.iter().flat_map(|contact| mesh.edges_on(&contact.pair.between));
     let pressed = sides.map(|edge| mesh.beside(edge).0).filter(|&triangle| is_own(triangle));
-    tell(&mut sums, &pressed.collect::<Vec<_>>(), session);
+    tell(&mut sums, &pressed.collect::<Vec<_>>(), &problem.session);
     Ok((found, sums.iter().map(|sum| sum[2] / sum[1]).collect()))
 }
 
@@ -98,10 +94,10 @@ fn larger(a: Largest, b: Largest) -> Largest {
 }
 
 /// Adds the largest strain and the largest rotation of its macro triangles to each body, and how far it reaches. **Collective**
-fn add_largest(problem: &Discretisation, sums: &[[f64; 3]], found: &mut [Deformation], session: &Session) {
+fn add_largest(problem: &Discretisation, sums: &[[f64; 3]], found: &mut [Deformation]) {
     let mesh = &problem.scene.mesh;
     let mut all = vec![[[0.0, -1.0, 0.0]; 3]; found.len()];
-    for &at in problem.scene.partition.triangles_of(session.rank()) {
+    for &at in problem.own_triangles() {
         let (triangle, [strain, area, rotation]) = (&mesh.triangles[at as usize], sums[at as usize]);
         let (strain, rotation, body) = (strain / area, rotation / area, triangle.body as usize);
         let away = |vertex: u32| (mesh.vertices[vertex as usize] - found[body].middle).norm();
@@ -109,7 +105,7 @@ fn add_largest(problem: &Discretisation, sums: &[[f64; 3]], found: &mut [Deforma
         let values = [(strain, strain), (rotation.abs(), rotation), (farthest, farthest)];
         all[body].iter_mut().zip(values).for_each(|(most, (size, value))| *most = larger(*most, [size, f64::from(at), value]));
     }
-    let of_ranks = session.gather_all(all.as_flattened().as_flattened());
+    let of_ranks = problem.session.gather_all(all.as_flattened().as_flattened());
     for (at, of_body) in of_ranks.as_chunks::<3>().0.as_chunks::<3>().0.iter().enumerate() {
         let known = &mut all[at % found.len()];
         (0..3).for_each(|k| known[k] = larger(known[k], of_body[k]));

@@ -54,21 +54,21 @@ impl<'a> Evaluation<'a> {
     ///
     /// # Errors
     /// [`SystemError`] from PETSc or an inverted triangle.
-    pub fn new(problem: &'a Discretisation, solution: &'a Solution, session: &'a Session) -> Result<Self, SystemError> {
-        let u = Field::displacement(problem, &solution.displacement, session);
+    pub fn new(problem: &'a Discretisation, solution: &'a Solution) -> Result<Self, SystemError> {
+        let u = Field::displacement(problem, &solution.displacement);
         let mut moved = [u.own().iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)];
-        session.max(&mut moved);
-        let balance = balance(problem, solution, &u, session)?;
-        let (deformations, turns) = deformations(problem, &u, session)?;
-        let needed = needed_contacts(problem, &solution.active, session);
-        let motions = motion_errors((problem, &needed), solution, &balance, (&deformations, &turns), session);
-        let held_forces = held_forces(problem, solution, &balance, session);
+        problem.session.max(&mut moved);
+        let balance = balance(problem, solution, &u)?;
+        let (deformations, turns) = deformations(problem, &u)?;
+        let needed = needed_contacts(problem, &solution.active, &problem.session);
+        let motions = motion_errors((problem, &needed), solution, &balance, (&deformations, &turns));
+        let held_forces = held_forces(problem, solution, &balance, &problem.session);
         let forces: Vec<f64> = balance.contacts.iter().map(|contact| contact.force).collect();
-        let penetrations = penetrations(problem, solution, &forces, session);
+        let penetrations = penetrations(problem, solution, &forces);
         Ok(Self {
             problem,
             solution,
-            session,
+            session: &problem.session,
             u,
             moved: moved[0],
             balance,
@@ -139,7 +139,7 @@ impl<'a> Evaluation<'a> {
     /// # Errors
     /// As [`Evaluation::new`].
     pub fn traces(&self, pressure: &ContactPressure) -> Result<Vec<TracePoint>, SystemError> {
-        trace_points(self.problem, pressure, &self.u, self.session)
+        trace_points(self.problem, pressure, &self.u)
     }
 
     /// Values at a point of a body or of a part of one; nothing if it does not hold the point. **Collective**
@@ -147,7 +147,7 @@ impl<'a> Evaluation<'a> {
     /// # Errors
     /// As [`Evaluation::new`].
     pub fn probe(&self, region: Region, x: Point) -> Result<Option<Probed>, SystemError> {
-        probe(self.problem, (&self.u, Probing::Displacement), region, x, self.session)
+        probe(self.problem, (&self.u, Probing::Displacement), region, x)
     }
 
     /// Stress (xx, yy, xy, zz) at the nodes, of each part by itself. **Collective**
@@ -158,7 +158,7 @@ impl<'a> Evaluation<'a> {
         match self.stress.get() {
             Some(stress) => Ok(stress),
             None => {
-                let stress = nodal_stress(self.problem, &self.u, self.session)?;
+                let stress = nodal_stress(self.problem, &self.u)?;
                 Ok(self.stress.get_or_init(|| stress))
             }
         }

@@ -6,7 +6,6 @@
 use crate::body::heat_forces;
 use crate::discretisation::{Discretisation, Field, SystemError, agreed};
 use crate::element::{BadJacobian, SIX_POINTS, by_order, jacobian, six_points};
-use crate::petsc::Session;
 
 /// What heat does in a part of a body (energies per thickness, or of the whole body of revolution).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -21,14 +20,14 @@ pub struct HeatEnergy {
 ///
 /// # Errors
 /// [`SystemError`] from an inverted triangle.
-pub fn heat_energies(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<HeatEnergy>, SystemError> {
+pub fn heat_energies(problem: &Discretisation, u: &Field<2>) -> Result<Vec<HeatEnergy>, SystemError> {
     let scene = &problem.scene;
     let mut sums = vec![[0.0; 2]; scene.mesh.parts.len()];
     if !scene.is_heated() {
         return Ok(sums.into_iter().map(|_| HeatEnergy::default()).collect());
     }
     let (parts, numbering) = (scene.parts(), &problem.finest().numbering);
-    let added = scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
+    let added = problem.own_triangles().iter().try_for_each(|&triangle| {
         let at = scene.mesh.triangles[triangle as usize].part as usize;
         if parts[at].heat.is_none() {
             return Ok(());
@@ -38,8 +37,8 @@ pub fn heat_energies(problem: &Discretisation, u: &Field<2>, session: &Session) 
         *kept += by_order!(numbering.level.order, kept_energy(problem, triangle as usize))?;
         Ok::<(), SystemError>(())
     });
-    agreed(session, added)?;
-    session.sum(sums.as_flattened_mut());
+    agreed(&problem.session, added)?;
+    problem.session.sum(sums.as_flattened_mut());
     Ok(sums.into_iter().map(|[work, kept]| HeatEnergy { work, kept }).collect())
 }
 

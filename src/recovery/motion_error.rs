@@ -27,7 +27,6 @@ use crate::contact::{Configuration, FiniteMotion, GapError, SmoothSide, Turn, Tu
 use crate::discretisation::{BoundaryMotion, Contact, ContactPressure, Discretisation, Freedom, Solution};
 use crate::geometry::Point;
 use crate::mesh::{EdgeNode, MacroEdge, MacroMesh};
-use crate::petsc::Session;
 
 /// A gap smaller than this share of the growth counts as large as that.
 const NO_GAP: f64 = 1e-3;
@@ -69,7 +68,6 @@ pub fn motion_errors(
     solution: &Solution,
     balance: &Balance,
     (bodies, turns): (&[Deformation], &[f64]),
-    session: &Session,
 ) -> Vec<Option<MotionError>> {
     let is_reference = |contact: &Contact| contact.pair.configuration == Configuration::Reference;
     let follows = |contact: &Contact| is_reference(contact) && contact.known.meeting.is_some();
@@ -82,7 +80,7 @@ pub fn motion_errors(
     let turns_others =
         |contact: &Contact| is_reference(contact) && contact.bodies.iter().any(|&body| freedoms[body].is_some() && beside(body));
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
-    let motion = || BoundaryMotion::new(&problem.scene, space, &solution.displacement, session);
+    let motion = || BoundaryMotion::new(&problem.scene, space, &solution.displacement, &problem.session);
     let motion = problem.contacts.iter().any(|contact| follows(contact) || turns_others(contact)).then(motion);
     let with_sides = |(contact, &is_set): (&Contact, &bool)| {
         let sides_of = |motion: &BoundaryMotion| {
@@ -94,7 +92,7 @@ pub fn motion_errors(
         let met = meeting.zip(sides.as_ref()).map(|(meeting, sides)| meeting.sides(sides));
         let whole = sides.as_ref().filter(|sides| sides.iter().all(|side| side.len() == 1)).map(|[a, b]| [&a[0], &b[0]]);
         let turned = turned(solution, contact, met.or(whole));
-        (one(problem, solution, (contact, is_set), &balance.strain, (bodies, turns), met, session), turned)
+        (one(problem, solution, (contact, is_set), &balance.strain, (bodies, turns), met), turned)
     };
     let (found, forces): (Vec<Option<MotionError>>, Vec<TurnedForce>) = problem.contacts.iter().zip(&set).map(with_sides).unzip();
     let moments: Vec<f64> = bodies.iter().zip(&balance.guided).map(|(body, guided)| body.moment - guided).collect();
@@ -115,7 +113,6 @@ fn one(
     energy: &[f64],
     (bodies, turns): (&[Deformation], &[f64]),
     sides: Option<[&SmoothSide; 2]>,
-    session: &Session,
 ) -> Option<MotionError> {
     let turns = [0, 1].map(|side| {
         let body = &bodies[contact.bodies[side]];
@@ -126,7 +123,7 @@ fn one(
     let found = finite_motion(sides, turns, &contact.boundary, &contact.multipliers, &solution.multipliers[contact.range()]);
     let energy: f64 = contact.bodies.iter().map(|&body| energy[body]).sum();
     let growth: f64 = contact.bodies.iter().map(|&body| bodies[body].growth).sum();
-    let (tool_turn, lever) = tool_lever(problem, solution, contact, bodies, session);
+    let (tool_turn, lever) = tool_lever(problem, solution, contact, bodies);
     let growth = growth + 0.5 * tool_turn * tool_turn * lever;
     if found.force <= 0.0 || energy <= 0.0 {
         return None;
@@ -183,16 +180,10 @@ fn is_between_tools(problem: &Discretisation, contact: &Contact, is: &dyn Fn(&Ri
 
 /// Turn of the tool in a contact (radians), and how far its reference point x₀ lies behind what presses, times the force:
 /// `∫λ n·(x - x₀) ds`. The tool seems to grow by half the square of the turn times that. **Collective**
-fn tool_lever(
-    problem: &Discretisation,
-    solution: &Solution,
-    contact: &Contact,
-    bodies: &[Deformation],
-    session: &Session,
-) -> (f64, f64) {
+fn tool_lever(problem: &Discretisation, solution: &Solution, contact: &Contact, bodies: &[Deformation]) -> (f64, f64) {
     let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
     let mut lever = [0.0];
-    for row in problem.coupling.own(contact.range(), session.rank()) {
+    for row in problem.coupling.own(contact.range(), problem.session.rank()) {
         for coupled in &problem.coupling.rows[row] {
             if let Some(tool) = scene.tool(coupled.body) {
                 let arm = coupled.node.place(&scene.mesh, numbering) - tool.about;
@@ -200,7 +191,7 @@ fn tool_lever(
             }
         }
     }
-    session.sum(&mut lever);
+    problem.session.sum(&mut lever);
     let tool = contact.bodies.into_iter().find(|&body| scene.tool(body).is_some());
     (tool.map_or(0.0, |body| bodies[body].rotation), lever[0])
 }

@@ -124,12 +124,11 @@ impl NodeSums {
         solution: &Solution,
         u: &Field<2>,
         [internal, springs]: [&Field<2>; 2],
-        session: &Session,
     ) -> Result<Self, SystemError> {
         let space = problem.finest();
-        let applied = nodal_forces(problem, session)?;
+        let applied = nodal_forces(problem, &problem.session)?;
         let pressed = contact_forces_of_nodes(problem, solution);
-        let body_of = body_of_nodes(problem, session.rank());
+        let body_of = body_of_nodes(problem);
         let (supports, sets) = (&problem.scene.supports, &problem.scene.rigid);
         let holders = Holders::new(&problem.scene.mesh, &space.numbering, supports).map_err(SystemError::Case)?;
         // These carry nothing in a solution: what they do carry is missing in the balance of their body.
@@ -138,7 +137,7 @@ impl NodeSums {
         let (reactions, rigid) = (vec![Point::zeros(); supports.len()], vec![[0.0; 3]; sets.len()]);
         let bodies = vec![ForceSum::default(); problem.scene.bodies.len()];
         let guided = vec![0.0; bodies.len()];
-        let mut sums = Self { work: WorkTerms::of_sets(sets, session), bodies, reactions, rigid, guided };
+        let mut sums = Self { work: WorkTerms::of_sets(sets, &problem.session), bodies, reactions, rigid, guided };
         for (at, node) in space.own.clone().enumerate() {
             let [f, k, pull] = [applied.own()[at], internal.own()[at], springs.own()[at]].map(|[x, y]| Point::new(x, y));
             let (u, push) = (u.point(node), pressed.get(&node).copied().unwrap_or_default());
@@ -159,7 +158,7 @@ impl NodeSums {
             }
             holders.shares(node, reaction).for_each(|(support, force)| sums.reactions[support] += force);
         }
-        Ok(sums.of_all_ranks(session))
+        Ok(sums.of_all_ranks(&problem.session))
     }
 
     /// Adds up those of all ranks. **Collective**
@@ -216,10 +215,10 @@ fn contact_forces_of_nodes(problem: &Discretisation, solution: &Solution) -> Has
 }
 
 /// Body of each owned node.
-fn body_of_nodes(problem: &Discretisation, rank: usize) -> Vec<usize> {
+fn body_of_nodes(problem: &Discretisation) -> Vec<usize> {
     let (scene, space) = (&problem.scene, problem.finest());
     let mut body = vec![0; space.own.len()];
-    let own = if scene.bodies.len() > 1 { scene.partition.triangles_of(rank) } else { &[] };
+    let own = if scene.bodies.len() > 1 { problem.own_triangles() } else { &[] };
     let triangles = own.iter().map(|&triangle| triangle as usize);
     for (triangle, _, node) in space.numbering.nodes_of(&scene.mesh, triangles).filter(|(.., node)| space.own.contains(node)) {
         body[node - space.own.start] = scene.mesh.triangles[triangle].body as usize;

@@ -9,7 +9,6 @@ use crate::contact::{Penetration, SmoothSide, penetration};
 use crate::discretisation::{BoundaryMotion, Contact, Discretisation, Solution};
 use crate::geometry::Point;
 use crate::mesh::EdgeNode;
-use crate::petsc::Session;
 
 /// Penetration below this share of the largest normal displacement is what the solve leaves.
 const LEFT: f64 = 1e-7;
@@ -74,12 +73,14 @@ pub fn unresolved_force(contact: &Contact, points: &[TracePoint], moved: f64) ->
 /// For each contact, with its force (per thickness, of a body of revolution that of the whole); ranks take them in turn. Bodies that
 /// lie along each other from the beginning come together by what strains them: a pressure p over a width w moves a boundary by about
 /// `2 p w/E`. **Collective**
-pub fn penetrations(problem: &Discretisation, solution: &Solution, forces: &[f64], session: &Session) -> Vec<Penetration> {
+pub fn penetrations(problem: &Discretisation, solution: &Solution, forces: &[f64]) -> Vec<Penetration> {
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
-    let motion = BoundaryMotion::new(&problem.scene, space, &solution.displacement, session);
+    let motion = BoundaryMotion::new(&problem.scene, space, &solution.displacement, &problem.session);
     let displacement = |node: EdgeNode| motion.at(node, mesh, space);
     let mut values = vec![0.0; 5 * problem.contacts.len()];
-    for (at, contact) in problem.contacts.iter().enumerate().filter(|(at, _)| at % session.size() == session.rank()) {
+    for (at, contact) in
+        problem.contacts.iter().enumerate().filter(|(at, _)| at % problem.session.size() == problem.session.rank())
+    {
         let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
         let boundary = &contact.boundary;
         let [first, last] = boundary.ends();
@@ -94,7 +95,7 @@ pub fn penetrations(problem: &Discretisation, solution: &Solution, forces: &[f64
         let approach = approach.max(2.0 * forces[at].abs() / (width * softest));
         values[5 * at..5 * at + 5].copy_from_slice(&[depth, place.x, place.y, beyond, approach]);
     }
-    session.sum(&mut values);
+    problem.session.sum(&mut values);
     let found = |&[depth, x, y, beyond, approach]: &[f64; 5]| Penetration { depth, place: Point::new(x, y), beyond, approach };
     values.as_chunks().0.iter().map(found).collect()
 }

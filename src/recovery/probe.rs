@@ -5,7 +5,6 @@ use crate::element::{SIX_POINTS, by_order, heated_stress, shape, stress};
 use crate::geometry::{AXES, Point};
 use crate::mesh::Region;
 use crate::mesh::lattice::Triangle;
-use crate::petsc::Session;
 
 /// How far outside a macro triangle a point may lie (barycentric): as far as on the mesh of the file first; a point that lies as
 /// little outside of that is farther out by the size of its triangles where these are small.
@@ -42,17 +41,16 @@ pub fn probe(
     (u, probing): (&Field<2>, Probing),
     region: Region,
     x: Point,
-    session: &Session,
 ) -> Result<Option<Probed>, SystemError> {
     for near in OUTSIDE {
         let mut sums = [0.0; 7];
-        let added = holding_nearly(problem, region, x, near, session).into_iter().try_for_each(|(triangle, at)| {
+        let added = holding_nearly(problem, region, x, near).into_iter().try_for_each(|(triangle, at)| {
             let values = by_order!(problem.finest().numbering.level.order, values_at(problem, (u, probing), triangle, at))?;
             values.iter().chain(&[1.0]).zip(&mut sums).for_each(|(value, sum)| *sum += value);
             Ok::<(), SystemError>(())
         });
-        agreed(session, added)?;
-        session.sum(&mut sums);
+        agreed(&problem.session, added)?;
+        problem.session.sum(&mut sums);
         if sums[6] > 0.0 {
             let [x, y, stress @ .., _] = sums.map(|sum| sum / sums[6]);
             return Ok(Some(Probed { displacement: Point::new(x, y), stress }));
@@ -76,19 +74,13 @@ fn nodes_with_shapes<const N: usize>(problem: &Discretisation, triangle: usize, 
 ///
 /// # Errors
 /// [`SystemError`] where a triangle is inverted.
-pub fn stress_around(
-    problem: &Discretisation,
-    u: &Field<2>,
-    region: Region,
-    x: Point,
-    session: &Session,
-) -> Result<f64, SystemError> {
+pub fn stress_around(problem: &Discretisation, u: &Field<2>, region: Region, x: Point) -> Result<f64, SystemError> {
     let mut sums = [0.0; 2];
-    let added = holding(problem, region, x, session).into_iter().try_for_each(|(triangle, at)| {
+    let added = holding(problem, region, x).into_iter().try_for_each(|(triangle, at)| {
         by_order!(problem.finest().numbering.level.order, add_squares(problem, u, triangle, at, &mut sums))
     });
-    agreed(session, added)?;
-    session.sum(&mut sums);
+    agreed(&problem.session, added)?;
+    problem.session.sum(&mut sums);
     Ok(if sums[1] > 0.0 { (sums[0] / sums[1]).sqrt() } else { 0.0 })
 }
 
@@ -110,14 +102,14 @@ fn add_squares<const N: usize>(
 }
 
 /// This rank's macro triangles of a body, or of a part of one, that hold a point, and its reference coordinates in them.
-pub fn holding(problem: &Discretisation, region: Region, x: Point, session: &Session) -> Vec<(usize, Point)> {
-    holding_nearly(problem, region, x, OUTSIDE[0], session)
+pub fn holding(problem: &Discretisation, region: Region, x: Point) -> Vec<(usize, Point)> {
+    holding_nearly(problem, region, x, OUTSIDE[0])
 }
 
 /// The same, of a point that may lie outside by the distance `near` (barycentric).
-fn holding_nearly(problem: &Discretisation, region: Region, x: Point, near: f64, session: &Session) -> Vec<(usize, Point)> {
+fn holding_nearly(problem: &Discretisation, region: Region, x: Point, near: f64) -> Vec<(usize, Point)> {
     let mesh = &problem.scene.mesh;
-    let own = problem.scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize);
+    let own = problem.own_triangles().iter().map(|&triangle| triangle as usize);
     let own = own.filter(|&triangle| region.holds(&mesh.triangles[triangle]));
     own.filter_map(|triangle| Some((triangle, mesh.locate_near(triangle, x, near)?))).collect()
 }
@@ -128,19 +120,13 @@ fn holding_nearly(problem: &Discretisation, region: Region, x: Point, near: f64,
 ///
 /// # Errors
 /// [`SystemError`] where a triangle is inverted.
-pub fn stress_forces(
-    problem: &Discretisation,
-    u: &Field<2>,
-    region: Region,
-    x: Point,
-    session: &Session,
-) -> Result<Field<2>, SystemError> {
-    let mut forces = Field::<2>::zeros(&problem.scene, problem.finest(), session);
-    let added = holding(problem, region, x, session).into_iter().try_for_each(|(triangle, at)| {
+pub fn stress_forces(problem: &Discretisation, u: &Field<2>, region: Region, x: Point) -> Result<Field<2>, SystemError> {
+    let mut forces = Field::<2>::zeros(&problem.scene, problem.finest(), &problem.session);
+    let added = holding(problem, region, x).into_iter().try_for_each(|(triangle, at)| {
         by_order!(problem.finest().numbering.level.order, add_stress_forces(problem, u, triangle, at, &mut forces))
     });
-    agreed(session, added)?;
-    Ok(forces.sum(session))
+    agreed(&problem.session, added)?;
+    Ok(forces.sum(&problem.session))
 }
 
 fn add_stress_forces<const N: usize>(

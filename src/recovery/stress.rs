@@ -3,7 +3,6 @@
 use crate::discretisation::{Discretisation, EvenTriangle, Field, SystemError, agreed};
 use crate::element::{PlaneLaw, by_order, corner_slopes, nodal_stresses, straight_stresses};
 use crate::mesh::{MacroMesh, lattice};
-use crate::petsc::Session;
 
 /// Stress at the nodes of each part of the bodies: where two parts meet it has two values, for some of its components jump.
 ///
@@ -26,10 +25,10 @@ impl NodalStress {
 ///
 /// # Errors
 /// [`SystemError`] from PETSc or an inverted triangle.
-pub fn nodal_stress(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<NodalStress, SystemError> {
+pub fn nodal_stress(problem: &Discretisation, u: &Field<2>) -> Result<NodalStress, SystemError> {
     let of_part = fields_of_parts(&problem.scene.mesh);
     let count = of_part.iter().max().map_or(0, |last| last + 1);
-    let fields = (0..count).map(|field| stress_of_parts(problem, u, |part| of_part[part as usize] == field, session));
+    let fields = (0..count).map(|field| stress_of_parts(problem, u, |part| of_part[part as usize] == field));
     Ok(NodalStress { fields: fields.collect::<Result<_, _>>()?, of_part })
 }
 
@@ -40,23 +39,18 @@ fn fields_of_parts(mesh: &MacroMesh) -> Vec<usize> {
 }
 
 /// The stress of some parts, not a number at nodes of none of them. **Collective**
-fn stress_of_parts(
-    problem: &Discretisation,
-    u: &Field<2>,
-    is_in: impl Fn(u32) -> bool,
-    session: &Session,
-) -> Result<Field<4>, SystemError> {
+fn stress_of_parts(problem: &Discretisation, u: &Field<2>, is_in: impl Fn(u32) -> bool) -> Result<Field<4>, SystemError> {
     // Stress times area, and area.
-    let mut sums = Field::<5>::zeros(&problem.scene, problem.finest(), session);
-    let mut own = problem.scene.partition.triangles_of(session.rank()).iter();
+    let mut sums = Field::<5>::zeros(&problem.scene, problem.finest(), &problem.session);
+    let mut own = problem.own_triangles().iter();
     let added = own.try_for_each(|&triangle| {
         if !is_in(problem.scene.mesh.triangles[triangle as usize].part) {
             return Ok(());
         }
         by_order!(problem.finest().numbering.level.order, add(problem, u, triangle as usize, &mut sums))
     });
-    agreed(session, added)?;
-    Ok(sums.sum(session).map(|[xx, yy, xy, zz, area]| [xx, yy, xy, zz].map(|sum| sum / area)))
+    agreed(&problem.session, added)?;
+    Ok(sums.sum(&problem.session).map(|[xx, yy, xy, zz, area]| [xx, yy, xy, zz].map(|sum| sum / area)))
 }
 
 fn add<const N: usize>(problem: &Discretisation, u: &Field<2>, triangle: usize, sums: &mut Field<5>) -> Result<(), SystemError> {

@@ -8,7 +8,6 @@ use crate::discretisation::{Discretisation, Field, SystemError};
 use crate::element::von_mises;
 use crate::geometry::Point;
 use crate::mesh::{MacroMesh, lattice};
-use crate::petsc::Session;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Of stresses that differ by a smaller share of the largest the first one in a direction counts, so that rounding does not choose
@@ -45,13 +44,13 @@ pub struct StressPeak {
 ///
 /// # Errors
 /// [`SystemError`] from PETSc or an inverted triangle.
-pub fn largest_stresses(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<f64>, SystemError> {
-    let stress = nodal_stress(problem, u, session)?;
+pub fn largest_stresses(problem: &Discretisation, u: &Field<2>) -> Result<Vec<f64>, SystemError> {
+    let stress = nodal_stress(problem, u)?;
     let mut largest = vec![0.0_f64; problem.scene.mesh.parts.len()];
-    for (_, part, node) in all_nodes(problem, session) {
+    for (_, part, node) in all_nodes(problem) {
         largest[part] = largest[part].max(von_mises(stress.at(part, node)));
     }
-    session.max(&mut largest);
+    problem.session.max(&mut largest);
     Ok(largest)
 }
 
@@ -59,8 +58,8 @@ pub fn largest_stresses(problem: &Discretisation, u: &Field<2>, session: &Sessio
 type LatticeNode = (usize, (usize, usize));
 
 /// All nodes of this rank's macro triangles, each with its part and its number.
-fn all_nodes<'a>(problem: &'a Discretisation, session: &Session) -> impl Iterator<Item = (LatticeNode, usize, usize)> + 'a {
-    nodes_of(problem, problem.scene.partition.triangles_of(session.rank()))
+fn all_nodes<'a>(problem: &'a Discretisation) -> impl Iterator<Item = (LatticeNode, usize, usize)> + 'a {
+    nodes_of(problem, problem.own_triangles())
 }
 
 /// All nodes of some macro triangles.
@@ -86,7 +85,7 @@ impl Evaluation<'_> {
         // Macro triangles where the stress is as large as before them, or nearly: among them are those of the largest one.
         let mut largest = vec![0.0_f64; mesh.parts.len()];
         let mut candidates: Vec<u32> = Vec::new();
-        for ((triangle, _), part, node) in all_nodes(problem, self.session) {
+        for ((triangle, _), part, node) in all_nodes(problem) {
             let stress = von_mises(stress.at(part, node));
             if stress >= (1.0 - ALIKE) * largest[part] {
                 largest[part] = largest[part].max(stress);
@@ -114,7 +113,7 @@ impl Evaluation<'_> {
             *first = if found[0] < first[0] { *found } else { *first };
         }
         let nodes: Vec<usize> = firsts.iter().map(|first| first[1] as usize).collect();
-        let edges = edges_at(problem, &nodes, &candidates, self.session);
+        let edges = edges_at(problem, &nodes, &candidates);
         let size = mesh.vertices.iter().map(|x| x.amax()).fold(0.0, f64::max);
         let peak = |(part, [_, _, x, y, ux, uy]): (usize, [f64; 6])| {
             let (place, displacement) = (without_rounding(Point::new(x, y), size), Point::new(ux, uy));
@@ -166,7 +165,7 @@ fn corners_at(mesh: &MacroMesh, places: &[SingularPlace]) -> Vec<PlacedCorner> {
 }
 
 /// The longest edge of a triangle at a node of each part (length); `triangles` have all that lie there on this rank. **Collective**
-fn edges_at(problem: &Discretisation, nodes: &[usize], triangles: &[u32], session: &Session) -> Vec<f64> {
+fn edges_at(problem: &Discretisation, nodes: &[usize], triangles: &[u32]) -> Vec<f64> {
     let (mesh, level) = (&problem.scene.mesh, problem.finest().numbering.level);
     let step = level.order.degree();
     let mut longest = vec![0.0_f64; nodes.len()];
@@ -178,6 +177,6 @@ fn edges_at(problem: &Discretisation, nodes: &[usize], triangles: &[u32], sessio
             longest[part] = longest[part].max((mesh.node_position(triangle, level, at) - here).norm());
         }
     }
-    session.max(&mut longest);
+    problem.session.max(&mut longest);
     longest
 }

@@ -56,25 +56,20 @@ impl TracePoint {
 ///
 /// # Errors
 /// [`SystemError`] where a triangle is inverted.
-pub fn trace_points(
-    problem: &Discretisation,
-    pressure: &ContactPressure,
-    u: &Field<2>,
-    session: &Session,
-) -> Result<Vec<TracePoint>, SystemError> {
+pub fn trace_points(problem: &Discretisation, pressure: &ContactPressure, u: &Field<2>) -> Result<Vec<TracePoint>, SystemError> {
     let contact = pressure.contact;
     let own = [0, 1].map(|body| {
         let overlaps = edge_overlaps(&contact.boundary, &contact.edges[body]);
         BodyTrace { problem, contact, body, overlaps }
     });
     let cuts: Vec<f64> = own.iter().flat_map(|trace| &trace.overlaps).flat_map(|overlap| overlap.range).collect();
-    let (parameters, segments) = parameters(contact, &cuts, session);
+    let (parameters, segments) = parameters(contact, &cuts, &problem.session);
     let mut points = Vec::with_capacity(parameters.len());
     for (parameters, segments) in parameters.chunks(AT_ONCE).zip(segments.chunks(AT_ONCE)) {
         let mut sums = vec![[0.0; 2 * VALUES]; parameters.len()];
         let added = own.iter().try_for_each(|trace| trace.add(parameters, u, &mut sums));
-        agreed(session, added)?;
-        session.sum(sums.as_flattened_mut());
+        agreed(&problem.session, added)?;
+        problem.session.sum(sums.as_flattened_mut());
         points.extend((0..parameters.len()).map(|at| point(pressure, parameters[at], segments[at], &sums[at])));
     }
     Ok(points)

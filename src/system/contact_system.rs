@@ -2,7 +2,7 @@
 
 use crate::discretisation::{Discretisation, Space, SystemError};
 use crate::multigrid::{Interpolation, LatticeOperator, Stiffness};
-use crate::petsc::{Matrix, Session, Vector};
+use crate::petsc::{Matrix, Vector};
 use crate::system::choice::SolverChoice;
 use crate::system::rigid_border::RigidBorder;
 use crate::system::saddle_point::{BorderValues, SaddlePoint};
@@ -24,7 +24,6 @@ pub struct Start {
 /// the same set, that of the last [`System::set_active`].
 pub struct System<'a> {
     problem: &'a Discretisation,
-    session: Session,
     blocks: SaddlePoint,
     solver: LinearSolver,
     /// Whether the solver has seen the blocks as they are.
@@ -51,39 +50,22 @@ impl<'a> System<'a> {
         interpolations: &Rc<[Interpolation]>,
         choice: SolverChoice,
         preconditioning: Preconditioning,
-        session: &Session,
     ) -> Result<Self, SystemError> {
-        let border = RigidBorder::new(problem, session)?.map(Rc::new);
+        let border = RigidBorder::new(problem)?.map(Rc::new);
         let blocks = match &border {
-            Some(border) => blocks.with_border(problem, border.clone(), session)?,
+            Some(border) => blocks.with_border(problem, border.clone())?,
             None => blocks,
         };
-        let solver = LinearSolver::new(&blocks, interpolations, choice, preconditioning, session)?;
+        let solver = LinearSolver::new(&blocks, interpolations, choice, preconditioning)?;
         let unknowns = blocks.nest.create_vectors()?.0;
         let motion = vec![0.0; border.as_ref().map_or(0, |border| border.components.len())];
-        let (session, right_hand_side, residual) = (session.clone(), OnceCell::new(), Cell::new(None));
-        Ok(Self {
-            problem,
-            session,
-            blocks,
-            solver,
-            is_solver_current: true,
-            unknowns,
-            right_hand_side,
-            residual,
-            border,
-            motion,
-        })
+        let (right_hand_side, residual) = (OnceCell::new(), Cell::new(None));
+        Ok(Self { problem, blocks, solver, is_solver_current: true, unknowns, right_hand_side, residual, border, motion })
     }
 
     /// What it was assembled from.
     pub fn problem(&self) -> &'a Discretisation {
         self.problem
-    }
-
-    /// All ranks.
-    pub fn session(&self) -> &Session {
-        &self.session
     }
 
     fn space(&self) -> &'a Space {
@@ -118,7 +100,7 @@ impl<'a> System<'a> {
         self.residual.take();
         let mut at_rest = None;
         if let Some(border) = &self.border {
-            self.motion = border.motion_of(self.problem, &start.displacement, &self.session);
+            self.motion = border.motion_of(self.problem, &start.displacement);
             let back: Vec<f64> = self.motion.iter().map(|component| -component).collect();
             border.displace(self.problem.finest(), &back, at_rest.insert(start.displacement.clone()));
         }
@@ -148,7 +130,7 @@ impl<'a> System<'a> {
     /// supports that do not move. **Collective**
     pub fn response(&mut self, load: &[f64], gap: &[f64], tolerance: f64) -> Result<Vec<f64>, SystemError> {
         self.bring_solver_up_to_date()?;
-        let loads = self.border.as_ref().map(|border| border.loads_of(self.space(), load, &self.session)).unwrap_or_default();
+        let loads = self.border.as_ref().map(|border| border.loads_of(self.problem, load)).unwrap_or_default();
         let given = BorderValues { motion: loads, mean: vec![0.0; self.motion.len()] };
         let b = self.blocks.right_hand_side_of(|values| values.copy_from_slice(load), gap, &given, self.space())?;
         let mut x = self.unknowns.duplicate()?;
@@ -210,7 +192,7 @@ impl<'a> System<'a> {
     /// Residual of the unknowns, and the relative one of the plain system, without augmentation. **Collective**
     pub fn both_residuals(&self) -> Result<(Residual, f64), SystemError> {
         let (r, residual) = self.residual_of(&self.unknowns)?;
-        Ok((residual, self.blocks.plain_residual(r, self.right_hand_side()?, self.space(), &self.session)?))
+        Ok((residual, self.blocks.plain_residual(r, self.right_hand_side()?, self.space())?))
     }
 
     /// Shows this rank's displacements in the nodes' frames, zero where they are prescribed.
@@ -238,19 +220,19 @@ impl<'a> System<'a> {
         } else {
             self.displacement().iter().fold(0.0, larger)
         };
-        self.session.max([own])[0]
+        self.problem.session.max([own])[0]
     }
 
     /// `λ_i = s_i λ̂_i` of all multipliers (stress). **Collective**
     pub fn pressures(&self) -> Vec<f64> {
         let multipliers = &self.blocks.multipliers;
-        let all = multipliers.collect(&self.unknowns.values()[self.space().local_unknowns()..], &self.session);
+        let all = multipliers.collect(&self.unknowns.values()[self.space().local_unknowns()..]);
         all.iter().zip(&multipliers.scale).map(|(value, scale)| value * scale).collect()
     }
 
     /// `(B u - c)_i` of all multipliers, active or not, for this rank's displacements (length squared). **Collective**
     pub fn penetration(&self, displacement: &[f64]) -> Vec<f64> {
-        self.blocks.penetration(displacement, &self.motion, self.space(), &self.session)
+        self.blocks.penetration(displacement, &self.motion, self.space())
     }
 
     /// `C λ` of the jump term (length squared).
@@ -260,7 +242,7 @@ impl<'a> System<'a> {
 
     /// Discrete inf-sup constant of each contact, where it can be had. **Collective**
     pub fn inf_sup(&self) -> Result<Vec<Option<f64>>, SystemError> {
-        inf_sup(&self.blocks, &self.problem.contacts, &self.session)
+        inf_sup(&self.blocks, &self.problem.contacts)
     }
 
     /// All blocks of the finest level: rows of this rank's displacements, then of its multipliers.

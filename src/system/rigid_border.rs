@@ -19,7 +19,6 @@ use crate::discretisation::{
 };
 use crate::geometry::Point;
 use crate::multigrid::Sparse;
-use crate::petsc::Session;
 use nalgebra::DMatrix;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
@@ -70,7 +69,7 @@ impl RigidBorder {
     ///
     /// # Errors
     /// [`SystemError`] from PETSc or an inverted triangle.
-    pub fn new(problem: &Discretisation, session: &Session) -> Result<Option<Self>, SystemError> {
+    pub fn new(problem: &Discretisation) -> Result<Option<Self>, SystemError> {
         let scene = &problem.scene;
         if !moves_rigidly(scene) {
             return Ok(None);
@@ -84,27 +83,27 @@ impl RigidBorder {
             young: scene.young().into_iter().filter(|young| young.is_finite()).fold(f64::MIN_POSITIVE, f64::max),
             nodes: Vec::new(),
         };
-        let loads = nodal_forces(problem, session)?;
-        border.add_sets(problem, &loads, session)?;
+        let loads = nodal_forces(problem, &problem.session)?;
+        border.add_sets(problem, &loads)?;
         if !scene.means.is_empty() {
-            border.add_held_bodies(problem, &loads, session)?;
+            border.add_held_bodies(problem, &loads)?;
         }
-        border.gaps = border.moved_gaps(problem, session);
+        border.gaps = border.moved_gaps(problem);
         Ok(Some(border))
     }
 
     /// Adds the free components of the rigid sets. **Collective**
-    fn add_sets(&mut self, problem: &Discretisation, loads: &Field<2>, session: &Session) -> Result<(), SystemError> {
+    fn add_sets(&mut self, problem: &Discretisation, loads: &Field<2>) -> Result<(), SystemError> {
         let (mesh, space) = (&problem.scene.mesh, problem.finest());
         let mut rows = Vec::new();
         for (number, set) in problem.scene.rigid.iter().enumerate() {
             let places = set.places(mesh, &space.numbering);
-            let arm = arm(problem, set, &places, session);
-            let moved = moved_nodes(problem, set, &places, session.rank());
+            let arm = arm(problem, set, &places);
+            let moved = moved_nodes(problem, set, &places);
             self.nodes.extend(moved.into_iter().map(|(node, x)| (2 * (node - space.own.start), number, x)));
             let first = self.components.len();
             for k in set.free() {
-                let row = moved_forces(problem, set, k, &places, session)?;
+                let row = moved_forces(problem, set, k, &places)?;
                 let mut forces = Free::new(problem);
                 space.own.clone().zip(row.own()).for_each(|(node, force)| forces.add(node, Point::from(*force)));
                 let own = places.iter().filter(|(node, _)| space.own.contains(node));
@@ -132,7 +131,7 @@ impl RigidBorder {
             }
             sums.extend(works);
         }
-        session.sum(&mut sums);
+        problem.session.sum(&mut sums);
         self.stiffness = DMatrix::from_row_slice(count, count, &sums[count..]);
         let applied = problem.scene.rigid.iter().flat_map(|set| set.free().map(|k| set.applied[k]));
         for ((component, load), applied) in self.components.iter_mut().zip(sums).zip(applied) {
@@ -142,9 +141,9 @@ impl RigidBorder {
     }
 
     /// Adds the modes of bodies whose mean is held. **Collective**
-    fn add_held_bodies(&mut self, problem: &Discretisation, loads: &Field<2>, session: &Session) -> Result<(), SystemError> {
+    fn add_held_bodies(&mut self, problem: &Discretisation, loads: &Field<2>) -> Result<(), SystemError> {
         let (scene, space) = (&problem.scene, problem.finest());
-        let bodies = problem.held_bodies(session)?;
+        let bodies = problem.held_bodies(&problem.session)?;
         let (sets, first) = (self.of_set.len(), self.components.len());
         let mut means: Vec<Free> = Vec::new();
         for (number, hold) in scene.means.iter().enumerate() {
@@ -164,7 +163,7 @@ impl RigidBorder {
             }
             self.nodes.push((2 * (node - space.own.start), sets + hold, x));
         }
-        let sums: Vec<f64> = session.sum(pushed.into_iter().chain(means.iter().map(|mean| mean.at_rest)).collect());
+        let sums: Vec<f64> = problem.session.sum(pushed.into_iter().chain(means.iter().map(|mean| mean.at_rest)).collect());
         let (pushed, at_rest) = sums.split_at(means.len());
         for (k, (component, mean)) in self.components[first..].iter_mut().zip(means).enumerate() {
             (component.load, component.mean) = (pushed[k], Some(mean.values));
@@ -179,7 +178,7 @@ impl RigidBorder {
     }
 
     /// `B R` by multipliers; what cancels is left out. **Collective**
-    fn moved_gaps(&self, problem: &Discretisation, session: &Session) -> Vec<Vec<(usize, f64)>> {
+    fn moved_gaps(&self, problem: &Discretisation) -> Vec<Vec<(usize, f64)>> {
         let (scene, numbering, coupling) = (&problem.scene, &problem.finest().numbering, &problem.coupling);
         let (of_body, mut of_node) = (holds_of_bodies(&problem.scene), HashMap::<usize, Vec<(usize, Point)>>::new());
         for (number, set) in scene.rigid.iter().enumerate().filter(|(number, _)| !self.of_set[*number].is_empty()) {
@@ -188,7 +187,7 @@ impl RigidBorder {
         }
         let (mut places, mut values) = (Vec::new(), Vec::new());
         let mut sums = BTreeMap::<usize, [f64; 2]>::new();
-        for row in coupling.own(0..coupling.owners.len(), session.rank()) {
+        for row in coupling.own(0..coupling.owners.len(), problem.session.rank()) {
             for coupled in &coupling.rows[row] {
                 let of_sets = of_node.get(&coupled.node.number(&scene.mesh, numbering)).into_iter().flatten().copied();
                 let held =
@@ -209,18 +208,19 @@ impl RigidBorder {
                 }
             }
         }
-        let (places, values) = (session.gather_all(&places), session.gather_all(&values));
+        let (places, values) = (problem.session.gather_all(&places), problem.session.gather_all(&values));
         let mut gaps = vec![Vec::new(); coupling.owners.len()];
         places.chunks_exact(2).zip(values).for_each(|(place, value)| gaps[place[0]].push((place[1], value)));
         gaps
     }
 
     /// The components that this rank's displacements, in the nodes' frames, have in them. **Collective**
-    pub fn motion_of(&self, problem: &Discretisation, displacement: &[f64], session: &Session) -> Vec<f64> {
-        let sets = rigid_motions(problem, displacement, session);
+    pub fn motion_of(&self, problem: &Discretisation, displacement: &[f64]) -> Vec<f64> {
+        let sets = rigid_motions(problem, displacement, &problem.session);
         let free = problem.scene.rigid.iter().zip(&sets).flat_map(|(set, motion)| set.free().map(|k| motion[k]));
         let about = &self.about[problem.scene.rigid.len()..];
-        free.chain(held_motions(&problem.scene, problem.finest(), about, displacement, session).into_iter().flatten()).collect()
+        free.chain(held_motions(&problem.scene, problem.finest(), about, displacement, &problem.session).into_iter().flatten())
+            .collect()
     }
 
     /// Adds the displacements by a motion to those of this rank, in the nodes' frames.
@@ -235,7 +235,8 @@ impl RigidBorder {
 
     /// `Rᵀ f` of bodies whose mean is held, for other nodal forces of this rank in the nodes' frames; nothing of rigid sets.
     /// **Collective**
-    pub fn loads_of(&self, space: &Space, load: &[f64], session: &Session) -> Vec<f64> {
+    pub fn loads_of(&self, problem: &Discretisation, load: &[f64]) -> Vec<f64> {
+        let space = problem.finest();
         let mut sums = vec![0.0; self.components.len()];
         for &(at, set, x) in &self.nodes {
             for j in self.of_set[set].clone().filter(|&j| self.components[j].mean.is_some()) {
@@ -243,7 +244,7 @@ impl RigidBorder {
                 sums[j] += force.dot(&self.moved(set, j, x));
             }
         }
-        session.sum(sums)
+        problem.session.sum(sums)
     }
 
     /// `B R q` of all multipliers.
@@ -274,19 +275,19 @@ impl<'a> Free<'a> {
 
 /// Largest distance from the reference point at which contact acts on a set; of its nodes where none does: a tool may be far longer
 /// than what it touches. **Collective**
-fn arm(problem: &Discretisation, set: &RigidSet, places: &BTreeMap<usize, Point>, session: &Session) -> f64 {
+fn arm(problem: &Discretisation, set: &RigidSet, places: &BTreeMap<usize, Point>) -> f64 {
     let (mesh, numbering) = (&problem.scene.mesh, &problem.finest().numbering);
     let farthest = |x: &mut dyn Iterator<Item = &Point>| x.map(|x| (x - set.about).norm()).fold(0.0, f64::max);
     let mut touched = problem.coupling.rows.iter().flatten().filter_map(|at| places.get(&at.node.number(mesh, numbering)));
-    let arms = session.max([farthest(&mut touched), farthest(&mut places.values())]);
+    let arms = problem.session.max([farthest(&mut touched), farthest(&mut places.values())]);
     arms.into_iter().find(|arm| *arm > 0.0).unwrap_or(f64::MIN_POSITIVE)
 }
 
 /// Nodes of this rank that move with a set, and where they are: with a tool those within its triangles, too, so that its motion
 /// is no force within it.
-fn moved_nodes(problem: &Discretisation, set: &RigidSet, places: &BTreeMap<usize, Point>, rank: usize) -> BTreeMap<usize, Point> {
+fn moved_nodes(problem: &Discretisation, set: &RigidSet, places: &BTreeMap<usize, Point>) -> BTreeMap<usize, Point> {
     if let RigidNodes::Body(name) = &set.nodes {
-        return nodes_of_body(problem, name, rank);
+        return nodes_of_body(problem, name);
     }
     let own = &problem.finest().own;
     places.iter().filter(|(node, _)| own.contains(node)).map(|(&node, &x)| (node, x)).collect()
@@ -298,28 +299,27 @@ fn moved_forces(
     set: &RigidSet,
     k: usize,
     places: &BTreeMap<usize, Point>,
-    session: &Session,
 ) -> Result<Field<2>, SystemError> {
     let space = problem.finest();
     if let RigidNodes::Body(_) = set.nodes {
-        return Ok(Field::zeros(&problem.scene, space, session));
+        return Ok(Field::zeros(&problem.scene, space, &problem.session));
     }
     let mut moved = vec![0.0; space.local_unknowns()];
     for (&node, &x) in places.iter().filter(|(node, _)| space.own.contains(node)) {
         moved[2 * (node - space.own.start)..][..2].copy_from_slice(space.to_frame(node, set.mode(k, x)).as_slice());
     }
-    let moved = Field::displacement(problem, &moved, session);
-    let (mut forces, springs) = (internal_forces(problem, &moved, session)?.1, SpringForces::new(problem, &moved, session));
+    let moved = Field::displacement(problem, &moved);
+    let (mut forces, springs) = (internal_forces(problem, &moved)?.1, SpringForces::new(problem, &moved));
     forces.add(-1.0, &springs.nodes);
     Ok(forces)
 }
 
 /// Nodes of this rank in a body, and where they are.
-fn nodes_of_body(problem: &Discretisation, body: &str, rank: usize) -> BTreeMap<usize, Point> {
+fn nodes_of_body(problem: &Discretisation, body: &str) -> BTreeMap<usize, Point> {
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let mut nodes = BTreeMap::new();
     let is_own = |triangle: &usize| mesh.bodies[mesh.triangles[*triangle].body as usize] == body;
-    let own = problem.scene.partition.triangles_of(rank).iter().map(|&triangle| triangle as usize).filter(is_own);
+    let own = problem.own_triangles().iter().map(|&triangle| triangle as usize).filter(is_own);
     for (triangle, at, node) in space.numbering.nodes_of(mesh, own).filter(|(.., node)| space.own.contains(node)) {
         nodes.entry(node).or_insert_with(|| mesh.node_position(triangle, space.numbering.level, at));
     }

@@ -41,9 +41,9 @@ fn measure(scene: Scene, session: &Session) {
     let problem = Discretisation::new(scene, session).expect("a discretisation");
     let load = load(&problem, &nodal_forces(&problem, session).expect("loads"));
     let choice = SolverChoice::FieldSplit;
-    let blocks = SaddlePoint::new(&problem, load, choice.form(), session).expect("blocks");
-    let interpolations = interpolations(&problem, session).into();
-    let mut system = System::new(&problem, blocks, &interpolations, choice, Preconditioning::Sweep, session).expect("a system");
+    let blocks = SaddlePoint::new(&problem, load, choice.form()).expect("blocks");
+    let interpolations = interpolations(&problem).into();
+    let mut system = System::new(&problem, blocks, &interpolations, choice, Preconditioning::Sweep).expect("a system");
     let (unknowns, ranks, multipliers) = (problem.unknown_count(), session.size(), problem.multiplier_count());
     if session.rank() == 0 {
         let seconds = start.elapsed().as_secs_f64();

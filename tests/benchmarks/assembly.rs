@@ -30,7 +30,7 @@ fn measure(session: &Session, problem: &Discretisation, form: Form, words: &str)
     let before = resident(session);
     let make = || {
         let load = vec![0.0; problem.finest().local_unknowns()];
-        Elastic::alone(problem, load, form, session).expect("a stiffness")
+        Elastic::alone(problem, load, form).expect("a stiffness")
     };
     let (elastic, first) = timed(session, make);
     let memory = resident(session) - before;

@@ -26,8 +26,8 @@ fn main() {
         }
         let problem = Discretisation::new(bars::scene(&session, order, refine, false), &session).expect("a discretisation");
         let load = vec![0.0; problem.finest().local_unknowns()];
-        let elastic = Elastic::alone(&problem, load, Form::Augmented, &session).expect("a stiffness");
-        let all = interpolations(&problem, &session);
+        let elastic = Elastic::alone(&problem, load, Form::Augmented).expect("a stiffness");
+        let all = interpolations(&problem);
         let (step, mut room) = (&all[all.len() - 1].nodes, Default::default());
         let lattice = elastic.stiffness[elastic.stiffness.len() - 1].lattice();
         let mut coarse = values(problem.spaces[problem.spaces.len() - 2].own.len());

@@ -62,9 +62,9 @@ fn lopsided(session: &Session) -> Discretisation {
 }
 
 /// The stiffness with even macro triangles as wholes, and with all rows stored.
-fn both(problem: &Discretisation, session: &Session) -> [Elastic; 2] {
+fn both(problem: &Discretisation) -> [Elastic; 2] {
     let load = vec![0.0; problem.finest().local_unknowns()];
-    [Form::Augmented, Form::Plain].map(|form| Elastic::alone(problem, load.clone(), form, session).expect("a stiffness"))
+    [Form::Augmented, Form::Plain].map(|form| Elastic::alone(problem, load.clone(), form).expect("a stiffness"))
 }
 
 fn finest(elastic: &Elastic) -> &Matrix {
@@ -97,7 +97,7 @@ fn product(matrix: &Matrix, x: &Vector) -> Vector {
 
 fn even_triangles_act_like_stored_rows(session: &Session) {
     for problem in problems(session) {
-        let [whole, stored] = both(&problem, session);
+        let [whole, stored] = both(&problem);
         let lattice = whole.stiffness[whole.stiffness.len() - 1].lattice();
         assert!(lattice.rows.borrow().nodes.len() < lattice.node_count(), "there is something to compare");
         let (x, b) = (erratic(&problem, finest(&stored), 0.3), erratic(&problem, finest(&stored), 0.7));
@@ -117,7 +117,7 @@ fn even_triangles_act_like_stored_rows(session: &Session) {
 
 fn expanded_even_triangles_are_the_stored_matrix(session: &Session) {
     for problem in problems(session) {
-        let [whole, stored] = both(&problem, session);
+        let [whole, stored] = both(&problem);
         let expanded = whole.stiffness.last().expect("levels").expanded(session).expect("a matrix").expect("not stored");
         let stored = finest(&stored);
         let x = erratic(&problem, stored, 0.1);
@@ -154,7 +154,7 @@ fn fine(session: &Session) -> Discretisation {
 /// Products, norms, expanded rows, and sweeps, also where contact couples nodes of the boundary.
 fn straight_triangles_act_like_stored_rows(session: &Session) {
     let problem = fine(session);
-    let of_bodies = both(&problem, session);
+    let of_bodies = both(&problem);
     let stored_rows: Vec<usize> = {
         let (lattice, own) = (of_bodies[0].stiffness[1].lattice(), problem.finest().own.start);
         let rows = lattice.rows.borrow();
@@ -166,7 +166,7 @@ fn straight_triangles_act_like_stored_rows(session: &Session) {
     let neighbours = [ContactNeighbours::new(), contact];
     let forms = of_bodies.iter().zip([Form::Augmented, Form::Plain]);
     let [mut straight, mut stored] = forms
-        .map(|(elastic, form)| elastic.with_places(&problem, form, &neighbours, session).expect("places").pop().expect("a level"))
+        .map(|(elastic, form)| elastic.with_places(&problem, form, &neighbours).expect("places").pop().expect("a level"))
         .collect::<Vec<_>>()
         .try_into()
         .unwrap_or_else(|_| panic!("two"));
@@ -204,11 +204,11 @@ fn straight_triangles_act_like_stored_rows(session: &Session) {
 fn the_energy_of_a_product_is_that_of_the_triangles(session: &Session) {
     for (order, refine) in [(Order::P1, 0), (Order::P1, 1), (Order::P1, 4), (Order::P2, 0), (Order::P2, 1), (Order::P2, 3)] {
         let problem = bent(session, order, refine);
-        let elastic = both(&problem, session);
+        let elastic = both(&problem);
         let x = erratic(&problem, finest(&elastic[0]), 0.6);
         let energy = |x: &Vector| {
-            let u = Field::displacement(&problem, &x.values(), session);
-            let mut sum = [local_strain_energy(&problem, &u, session).expect("an energy").iter().sum::<f64>()];
+            let u = Field::displacement(&problem, &x.values());
+            let mut sum = [local_strain_energy(&problem, &u).expect("an energy").iter().sum::<f64>()];
             session.sum(&mut sum);
             sum[0]
         };
@@ -252,7 +252,7 @@ fn swept(elastic: &Elastic, b: &Vector) -> Vector {
 
 fn a_sweep_is_symmetric_and_reduces_the_error(session: &Session) {
     for problem in problems(session) {
-        let both = both(&problem, session);
+        let both = both(&problem);
         let stored = finest(&both[1]);
         let [a, b] = [0.2, 0.9].map(|seed| erratic(&problem, stored, seed));
         let [forth, back] = [(&a, &b), (&b, &a)].map(|(a, b)| dot(&swept(&both[0], a), b, session));
@@ -276,8 +276,8 @@ fn a_cycle_reduces_the_error(session: &Session) {
         let on = vec!["bottom".into(), "top".into()];
         scene.supports.push(Support { name: "ends".into(), on, at: None, ux: None, uy: zero, normal: None });
         let problem = Discretisation::new(scene, session).expect("a discretisation");
-        let [whole, stored] = both(&problem, session);
-        let (interpolations, stored) = (interpolations(&problem, session), finest(&stored));
+        let [whole, stored] = both(&problem);
+        let (interpolations, stored) = (interpolations(&problem), finest(&stored));
         let x = erratic(&problem, stored, 0.2);
         let b = product(stored, &x);
         let energy = dot(&b, &x, session);
@@ -297,7 +297,7 @@ fn solvers_of_petsc_take_even_triangles(session: &Session) {
     options::set_default(session, "-whole_ksp_type", "cg").expect("an option");
     options::set_default(session, "-whole_pc_type", "none").expect("an option");
     let problem = &problems(session)[0];
-    let [whole, stored] = both(problem, session);
+    let [whole, stored] = both(problem);
     let x = erratic(problem, finest(&stored), 0.4);
     let b = product(finest(&stored), &x);
     let krylov = Krylov::new(session, "whole_").expect("a solver");
@@ -327,7 +327,7 @@ fn linear_motion(problem: &Discretisation, space: &Space, session: &Session) -> 
 
 fn halved_rows_interpolate_linear_motions_exactly(session: &Session) {
     for problem in problems(session).into_iter().take(2) {
-        let all = interpolations(&problem, session);
+        let all = interpolations(&problem);
         let (fine, coarse) = (problem.finest(), &problem.spaces[problem.spaces.len() - 2]);
         let motion = |space: &Space| linear_motion(&problem, space, session);
         let (x, expected) = (motion(coarse), motion(fine));
@@ -340,7 +340,7 @@ fn halved_rows_interpolate_linear_motions_exactly(session: &Session) {
 
 fn halved_rows_are_transposed(session: &Session) {
     for problem in problems(session).into_iter().chain([lopsided(session)]) {
-        let all = interpolations(&problem, session);
+        let all = interpolations(&problem);
         let (nodes, mut room) = (&all[all.len() - 1].nodes, Default::default());
         let spaces = [problem.finest(), &problem.spaces[problem.spaces.len() - 2]];
         let [mut y, mut x] = spaces.map(|space| Vector::new(session, space.local_unknowns()).expect("a vector"));

@@ -99,12 +99,12 @@ fn system_from<'a>(
     session: &Session,
 ) -> (System<'a>, Rc<[Interpolation]>) {
     let load = load(problem, &nodal_forces(problem, session).expect("loads"));
-    let blocks = SaddlePoint::new(problem, load, choice.form(), session).expect("blocks");
+    let blocks = SaddlePoint::new(problem, load, choice.form()).expect("blocks");
     let interpolations: Rc<[Interpolation]> = match choice.form() {
-        Form::Augmented => interpolations(problem, session).into(),
+        Form::Augmented => interpolations(problem).into(),
         Form::Plain => Rc::new([]),
     };
-    let system = System::new(problem, blocks, &interpolations, choice, first, session).expect("a system");
+    let system = System::new(problem, blocks, &interpolations, choice, first).expect("a system");
     (system, interpolations)
 }
 
@@ -138,7 +138,7 @@ struct Definition<'a> {
 impl<'a> Definition<'a> {
     fn new(problem: &'a Discretisation, session: &'a Session) -> Self {
         let load = vec![0.0; problem.finest().local_unknowns()];
-        let mut elastic = Elastic::alone(problem, load, Form::Plain, session).expect("a stiffness");
+        let mut elastic = Elastic::alone(problem, load, Form::Plain).expect("a stiffness");
         let stiffness = elastic.stiffness.pop().expect("a level").operator().share().expect("shared");
         let scale = |contact: &Contact| -> Vec<f64> {
             (0..contact.multipliers.count()).map(|i| contact.multiplier_moduli[i] / contact.multipliers.length(i)).collect()
@@ -211,7 +211,7 @@ impl<'a> Definition<'a> {
     /// `f`, with what prescribed displacements add.
     fn load(&self) -> Vec<f64> {
         let load = load(self.problem, &nodal_forces(self.problem, self.session).expect("loads"));
-        Elastic::alone(self.problem, load, Form::Plain, self.session).expect("a stiffness").load
+        Elastic::alone(self.problem, load, Form::Plain).expect("a stiffness").load
     }
 
     /// Multipliers of this rank.

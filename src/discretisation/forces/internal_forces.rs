@@ -7,40 +7,39 @@ use crate::discretisation::levels::Discretisation;
 use crate::element::{self, by_order, times};
 use crate::geometry::Point;
 use crate::mesh::lattice;
-use crate::petsc::Session;
 
 /// Strain energy of each macro triangle of this rank, in its order. **Collective**
 ///
 /// # Errors
 /// [`SystemError`] from PETSc or an inverted triangle.
-pub fn local_strain_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<Vec<f64>, SystemError> {
-    let own = problem.scene.partition.triangles_of(session.rank());
+pub fn local_strain_energy(problem: &Discretisation, u: &Field<2>) -> Result<Vec<f64>, SystemError> {
+    let own = problem.own_triangles();
     let energy = |&triangle: &u32| {
         let mut energy = 0.0;
         each_force(problem, u, triangle as usize, |_, force, u| energy += 0.5 * force.dot(&u))?;
         // Rounding may leave a rigid motion a little less than nothing.
         Ok(energy.max(0.0))
     };
-    agreed(session, own.iter().map(energy).collect())
+    agreed(&problem.session, own.iter().map(energy).collect())
 }
 
 /// Strain energy of each body (this rank's part) and the internal forces `∫σ:∇N` at the nodes, in global axes. **Collective**
 ///
 /// # Errors
 /// [`SystemError`] from PETSc or an inverted triangle.
-pub fn internal_forces(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<(Vec<f64>, Field<2>), SystemError> {
+pub fn internal_forces(problem: &Discretisation, u: &Field<2>) -> Result<(Vec<f64>, Field<2>), SystemError> {
     let scene = &problem.scene;
     let mut strain = vec![0.0; scene.mesh.parts.len()];
-    let mut forces = Field::<2>::zeros(&problem.scene, problem.finest(), session);
-    let added = scene.partition.triangles_of(session.rank()).iter().try_for_each(|&triangle| {
+    let mut forces = Field::<2>::zeros(&problem.scene, problem.finest(), &problem.session);
+    let added = problem.own_triangles().iter().try_for_each(|&triangle| {
         let part = scene.mesh.triangles[triangle as usize].part as usize;
         each_force(problem, u, triangle as usize, |node, force, u| {
             strain[part] += 0.5 * force.dot(&u);
             forces.add_at(node, force);
         })
     });
-    agreed(session, added)?;
-    Ok((strain, forces.sum(session)))
+    agreed(&problem.session, added)?;
+    Ok((strain, forces.sum(&problem.session)))
 }
 
 /// Internal forces of one macro triangle: number, force and displacement of each of its nodes.

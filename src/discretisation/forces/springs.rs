@@ -3,7 +3,6 @@
 use crate::discretisation::field::Field;
 use crate::discretisation::levels::Discretisation;
 use crate::geometry::Point;
-use crate::petsc::Session;
 
 /// Forces and energy of all springs.
 pub struct SpringForces {
@@ -17,13 +16,13 @@ pub struct SpringForces {
 
 impl SpringForces {
     /// Those of a displacement. **Collective**
-    pub fn new(problem: &Discretisation, u: &Field<2>, session: &Session) -> Self {
+    pub fn new(problem: &Discretisation, u: &Field<2>) -> Self {
         let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
         let mesh = &scene.mesh;
-        let mut nodes = Field::<2>::zeros(&problem.scene, problem.finest(), session);
+        let mut nodes = Field::<2>::zeros(&problem.scene, problem.finest(), &problem.session);
         let mut sums = vec![0.0; 2 * scene.springs.len() + 1];
         for (at, springs) in scene.springs.iter().enumerate() {
-            let is_own = |edge: &u32| scene.partition.owner(mesh.beside(*edge).0) == session.rank();
+            let is_own = |edge: &u32| scene.partition.owner(mesh.beside(*edge).0) == problem.session.rank();
             for edge in springs.edges(mesh).into_iter().filter(is_own) {
                 springs.stiffness(mesh, edge, numbering, |a, b, block| {
                     let (moved, [ux, uy]) = (u.at(a), u.at(b));
@@ -37,9 +36,9 @@ impl SpringForces {
                 });
             }
         }
-        session.sum(&mut sums);
+        problem.session.sum(&mut sums);
         let energy = sums[2 * scene.springs.len()];
         let reactions = sums.chunks_exact(2).map(|force| Point::new(force[0], force[1])).collect();
-        Self { nodes: nodes.sum(session), reactions, energy }
+        Self { nodes: nodes.sum(&problem.session), reactions, energy }
     }
 }

@@ -42,9 +42,9 @@ use tree::Tree;
 const LEAST_GAIN: f64 = 0.3;
 
 /// Steps from the coarsest space of a problem down to a level that is small, or, of very many bodies, cannot be much smaller, the lowest
-/// first; none if that space is small. One rank has all of the lowest level. On `ranks` ranks, alike on each of them.
-pub fn coarsenings(problem: &Discretisation, ranks: usize) -> Vec<Rc<Coarsening>> {
-    let space = &problem.spaces[0];
+/// first; none if that space is small. One rank has all of the lowest level. Alike on each rank.
+pub fn coarsenings(problem: &Discretisation) -> Vec<Rc<Coarsening>> {
+    let (space, ranks) = (&problem.spaces[0], problem.session.size());
     let mut coarsenings: Vec<Rc<Coarsening>> = Vec::new();
     if 2 * space.numbering.node_count() <= SMALL {
         return coarsenings;

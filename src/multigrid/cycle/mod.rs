@@ -28,6 +28,7 @@ use std::rc::Rc;
 /// finest one they go forward alone where not all rows are stored, or from zero: that saves a quarter of the sweeps there and costs
 /// one iteration in a hundred.
 pub struct Cycle {
+    session: Session,
     coarsest: Coarsest,
     /// Those that are swept, the coarsest first.
     levels: Vec<CycleLevel>,
@@ -56,17 +57,17 @@ impl Cycle {
         let last = levels.pop().expect("a level that is swept");
         levels = levels.into_iter().map(CycleLevel::with_vectors).collect();
         levels.push(last);
-        Ok(Self { coarsest, levels, border: None, r: vec![[0.0; 2]; most.unwrap_or(0)] })
+        Ok(Self { session: session.clone(), coarsest, levels, border: None, r: vec![[0.0; 2]; most.unwrap_or(0)] })
     }
 
     /// Takes over the values of the stiffness, which have changed. **Collective**
-    pub fn refresh(&mut self, session: &Session) -> Result<()> {
+    pub fn refresh(&mut self) -> Result<()> {
         self.levels.iter_mut().for_each(CycleLevel::refresh);
-        self.coarsest.refresh(session)
+        self.coarsest.refresh(&self.session)
     }
 
     /// Takes over unknowns beside the displacements, for the present values of the stiffness. **Collective**
-    pub fn set_border(&mut self, border: Border, session: &Session) {
+    pub fn set_border(&mut self, border: Border) {
         if border.columns.is_empty() {
             self.border = None;
             return;
@@ -84,7 +85,7 @@ impl Cycle {
             self.coarsest.solve();
             responses.push(self.coarsest.x.as_flattened().to_vec());
         }
-        self.border = Some(LevelBorder::new(border, lower, below, responses, session));
+        self.border = Some(LevelBorder::new(border, lower, below, responses, &self.session));
     }
 
     /// Restricts forces to all levels below the finest one. **Collective**

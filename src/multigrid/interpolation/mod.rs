@@ -24,16 +24,16 @@ pub struct Interpolation {
 
 /// Interpolations between all levels, auxiliary ones among them: the first leads from the coarsest level to the next.
 /// **Collective**
-pub fn interpolations(problem: &Discretisation, session: &Session) -> Vec<Interpolation> {
+pub fn interpolations(problem: &Discretisation) -> Vec<Interpolation> {
     let (mut all, first) = (Vec::new(), &problem.spaces[0]);
-    let coarsenings = coarsenings(problem, session.size());
+    let coarsenings = coarsenings(problem);
     for (l, step) in coarsenings.iter().enumerate() {
-        let fine = coarsenings.get(l + 1).map_or(first.own.clone(), |finer| finer.coarse.own(session.rank()));
-        let nodes = Rc::new(auxiliary_interpolation(step, fine, session));
+        let fine = coarsenings.get(l + 1).map_or(first.own.clone(), |finer| finer.coarse.own(problem.session.rank()));
+        let nodes = Rc::new(auxiliary_interpolation(step, fine, &problem.session));
         all.push(Interpolation { nodes, coarsening: Some(step.clone()) });
     }
     for pair in problem.spaces.windows(2) {
-        let nodes = Rc::new(NodeInterpolation::new(&problem.scene, &pair[1], &pair[0], session));
+        let nodes = Rc::new(NodeInterpolation::new(&problem.scene, &pair[1], &pair[0], &problem.session));
         all.push(Interpolation { nodes, coarsening: None });
     }
     all

@@ -6,7 +6,6 @@ use super::{ContactNeighbours, SolverView, Stiffness};
 use crate::discretisation::{Discretisation, Form, SMALL, SystemError};
 use crate::geometry::Point;
 use crate::multigrid::user_options::takes_another_preconditioner;
-use crate::petsc::Session;
 
 /// Stiffness and load of the bodies.
 pub struct Elastic {
@@ -25,7 +24,6 @@ impl Elastic {
         mut load: Vec<f64>,
         form: Form,
         neighbours: &[ContactNeighbours],
-        session: &Session,
     ) -> Result<Self, SystemError> {
         let mut stiffness = Vec::new();
         for (l, space) in problem.spaces.iter().enumerate().skip(first_level(problem, form)) {
@@ -36,18 +34,18 @@ impl Elastic {
                     (load[at], load[at + 1]) = (load[at] - force.x, load[at + 1] - force.y);
                 }
             };
-            let assembly = Assembly::new(&problem.scene, space, form == Form::Augmented, session.rank());
+            let assembly = Assembly::new(&problem.scene, space, form == Form::Augmented, problem.session.rank());
             let assembled = assembly.assemble(&neighbours[l], lift).map_err(SystemError::from);
-            let assembled = session.agree(assembled).map_err(SystemError::Case)?;
-            let lattice = LatticeOperator::new(assembled, &space.own, session);
-            stiffness.push(Stiffness::new(lattice, seen(problem, last, form, session), session)?);
+            let assembled = problem.session.agree(assembled).map_err(SystemError::Case)?;
+            let lattice = LatticeOperator::new(assembled, &space.own, &problem.session);
+            stiffness.push(Stiffness::new(lattice, seen(problem, last, form), &problem.session)?);
         }
         Ok(Self { stiffness, load })
     }
 
     /// The same without places for contact: for boundaries that move, each of which has its own. **Collective**
-    pub fn alone(problem: &Discretisation, load: Vec<f64>, form: Form, session: &Session) -> Result<Self, SystemError> {
-        let elastic = Self::new(problem, load, form, &vec![ContactNeighbours::new(); problem.spaces.len()], session)?;
+    pub fn alone(problem: &Discretisation, load: Vec<f64>, form: Form) -> Result<Self, SystemError> {
+        let elastic = Self::new(problem, load, form, &vec![ContactNeighbours::new(); problem.spaces.len()])?;
         elastic.stiffness.iter().for_each(|stiffness| stiffness.lattice().rows.borrow_mut().keep());
         Ok(elastic)
     }
@@ -58,18 +56,17 @@ impl Elastic {
         problem: &Discretisation,
         form: Form,
         neighbours: &[ContactNeighbours],
-        session: &Session,
     ) -> Result<Vec<Stiffness>, SystemError> {
         let levels = neighbours.iter().skip(first_level(problem, form)).zip(&self.stiffness);
-        levels.map(|(neighbours, stiffness)| stiffness.with_places(neighbours, session)).collect()
+        levels.map(|(neighbours, stiffness)| stiffness.with_places(neighbours, &problem.session)).collect()
     }
 }
 
 /// What solvers of PETSc's see of a level: all rows of the finest one, where more than its products is wanted, or where there is no
 /// other, so that a factor stands in the place of the cycle.
-fn seen(problem: &Discretisation, is_finest: bool, form: Form, session: &Session) -> SolverView {
+fn seen(problem: &Discretisation, is_finest: bool, form: Form) -> SolverView {
     let is_alone = problem.spaces.len() == 1 && 2 * problem.finest().numbering.node_count() <= SMALL;
-    let are_wanted = form == Form::Plain || is_finest && (is_alone || takes_another_preconditioner(session));
+    let are_wanted = form == Form::Plain || is_finest && (is_alone || takes_another_preconditioner(&problem.session));
     if are_wanted { SolverView::Entries } else { SolverView::Action }
 }
 

@@ -7,7 +7,6 @@ use crate::contact::{Configuration, Displacement, Known, SmoothSide};
 use crate::discretisation::{BoundaryMotion, Contact, Discretisation, Solution, SystemError};
 use crate::geometry::Point;
 use crate::mesh::EdgeNode;
-use crate::petsc::Session;
 use crate::procedure::ending::Failure;
 use crate::procedure::sets::relative_change;
 use crate::recovery::missing_beyond;
@@ -112,17 +111,16 @@ impl Following {
         problem: &Discretisation,
         solution: &Solution,
         number: usize,
-        session: &Session,
     ) -> Result<(BoundaryStep, NextBoundary), SystemError> {
-        let du = self.change(&solution.displacement, session);
+        let du = self.change(problem, &solution.displacement);
         let flipped = (self.active.len() == solution.active.len())
             .then(|| self.active.iter().zip(&solution.active).filter(|(a, b)| a != b).count());
         (self.displacement, self.active) = (solution.displacement.clone(), solution.active.clone());
-        let motion = BoundaryMotion::new(&problem.scene, problem.finest(), &solution.displacement, session);
+        let motion = BoundaryMotion::new(&problem.scene, problem.finest(), &solution.displacement, &problem.session);
         let known = self.proposals(problem, solution, number);
         let (mesh, space) = (&problem.scene.mesh, problem.finest());
         let displacement = |node: EdgeNode| motion.at(node, mesh, space);
-        let next = Contact::all_again(&problem.scene, &space.numbering, session.rank(), &known, &displacement)?;
+        let next = Contact::all_again(&problem.scene, &space.numbering, problem.session.rank(), &known, &displacement)?;
         let pairs = self.counting(problem, solution, &next, number);
         let moved = way(&pairs);
         self.found = next.iter().map(Contact::ends).collect();
@@ -154,7 +152,7 @@ impl Following {
         match self.beyond(problem, solution, &displacement, known) {
             Ok(None) => Ok((step, next_boundary)),
             Ok(Some(known)) => {
-                let next = Contact::all_again(&problem.scene, &space.numbering, session.rank(), &known, &displacement)?;
+                let next = Contact::all_again(&problem.scene, &space.numbering, problem.session.rank(), &known, &displacement)?;
                 Ok((step, NextBoundary::Again(next, motion)))
             }
             Err(failure) => Ok((step, NextBoundary::GivenUp(failure))),
@@ -221,9 +219,9 @@ impl Following {
     }
 
     /// Change of the displacement since the boundary before, relative to its norm. **Collective**
-    fn change(&self, displacement: &[f64], session: &Session) -> Option<f64> {
+    fn change(&self, problem: &Discretisation, displacement: &[f64]) -> Option<f64> {
         // A rank may have no unknowns; all know the same active set.
-        (!self.active.is_empty()).then(|| relative_change(displacement, &self.displacement, session))
+        (!self.active.is_empty()).then(|| relative_change(displacement, &self.displacement, &problem.session))
     }
 
     /// What the next boundary of each contact is placed by.

@@ -4,7 +4,6 @@ use crate::accuracy::{Accuracy, ProbePoint};
 use crate::body::Unbounded;
 use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, SystemError, local_strain_energy};
 use crate::mesh::Cells;
-use crate::petsc::Session;
 use crate::procedure::coarse_solution::CoarseSolution;
 use crate::procedure::estimates::end_estimate::{ends_within_segments, way_of_ends};
 use crate::procedure::estimates::energy_norm::{share, whole_energy, without_points};
@@ -62,21 +61,19 @@ impl Difference {
         solution: &Solution,
         coarse: &CoarseSolution,
         accuracy: Option<&Accuracy>,
-        session: &Session,
     ) -> Result<Self, SystemError> {
-        let mut apart = coarse.displacement(&problem.scene, problem.finest(), session.rank());
+        let mut apart = coarse.displacement(&problem.scene, problem.finest(), problem.session.rank());
         apart.iter_mut().zip(&solution.displacement).for_each(|(before, now)| *before = now - *before);
-        let u = Field::displacement(problem, &solution.displacement, session);
-        let whole = whole_energy(problem, &u, session)?;
-        let apart = Field::displacement(problem, &apart, session);
+        let u = Field::displacement(problem, &solution.displacement);
+        let whole = whole_energy(problem, &u)?;
+        let apart = Field::displacement(problem, &apart);
         let probes = accuracy.map_or_else(Vec::new, Accuracy::probes);
-        let probes =
-            probes.iter().map(|point| at_probe((problem, solution), point, [&u, &apart], session)).collect::<Result<_, _>>()?;
-        let cells = if accuracy.is_some() { cell_energies(problem, &apart, session)? } else { Vec::new() };
-        let of_triangles = without_points(problem, local_strain_energy(problem, &apart, session)?, session);
-        let left_out = problem.scene.has_point_load(session.rank());
+        let probes = probes.iter().map(|point| at_probe((problem, solution), point, [&u, &apart])).collect::<Result<_, _>>()?;
+        let cells = if accuracy.is_some() { cell_energies(problem, &apart)? } else { Vec::new() };
+        let of_triangles = without_points(problem, local_strain_energy(problem, &apart)?);
+        let left_out = problem.scene.has_point_load(problem.session.rank());
         let cells = cells.into_iter().zip(&left_out).map(|(cells, &is_out)| if is_out { Cells::default() } else { cells });
-        let [apart] = session.sum([of_triangles.iter().sum()]);
+        let [apart] = problem.session.sum([of_triangles.iter().sum()]);
         let contacts = problem.contacts.iter().enumerate();
         let contacts = contacts.map(|(at, contact)| ContactDifference::new(&solution.pressure(contact), &coarse.pressure(at)));
         let contacts = contacts.collect();
@@ -110,14 +107,13 @@ fn at_probe(
     (problem, solution): (&Discretisation, &Solution),
     point: &ProbePoint,
     [u, apart]: [&Field<2>; 2],
-    session: &Session,
 ) -> Result<ProbeDifference, SystemError> {
     let unknown = ProbeDifference { displacement: f64::NAN, stress: [f64::NAN; 2], unbounded: None };
     let Some(region) = problem.scene.mesh.region(&point.body) else { return Ok(unknown) };
     let both = [(u, Probing::Displacement), (apart, Probing::Difference)];
-    let [whole, part] = both.map(|field| probe(problem, field, region, point.point, session));
+    let [whole, part] = both.map(|field| probe(problem, field, region, point.point));
     let (Some(whole), Some(part)) = (whole?, part?) else { return Ok(unknown) };
-    let around = stress_around(problem, apart, region, point.point, session)?;
+    let around = stress_around(problem, apart, region, point.point)?;
     let plane = problem.scene.mesh.plane;
     let size = |stress: [f64; 4]| plane.stress_product(stress, stress).sqrt();
     let stress = [size(part.stress), around].map(|apart| apart / size(whole.stress));

@@ -10,7 +10,6 @@ use crate::contact::Zone;
 use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, SystemError, load};
 use crate::geometry::Point;
 use crate::mesh::Cells;
-use crate::petsc::Session;
 use crate::procedure::coarse_solution::{CoarseSolution, coarse_values};
 use crate::recovery::{cell_energies, holding, shapes_at, stress_forces};
 use crate::system::System;
@@ -43,18 +42,18 @@ impl Duals<'_> {
     /// The dual displacement of a goal, by a system with the set of the solution; none for the energy norm, where the error weighs
     /// itself. **Collective**
     pub fn solve(&self, system: &mut System, goal: &Goal) -> Result<Option<Vec<f64>>, SystemError> {
-        let functional = self.functional(&goal.quantity, system, self.solution)?;
+        let functional = self.functional(&goal.quantity, system.problem())?;
         functional.map(|Functional { load, gap }| system.response(&load, &gap, ROUGH)).transpose()
     }
 
     /// The right-hand side of the dual problem of a quantity. **Collective**
-    fn functional(&self, quantity: &Quantity, system: &System, solution: &Solution) -> Result<Option<Functional>, SystemError> {
-        let (problem, nothing) = (system.problem(), vec![0.0; system.problem().finest().local_unknowns()]);
+    fn functional(&self, quantity: &Quantity, problem: &Discretisation) -> Result<Option<Functional>, SystemError> {
+        let nothing = vec![0.0; problem.finest().local_unknowns()];
         let of_pressure = |name: &str, weights: &dyn Fn(usize, &ContactPressure) -> Vec<f64>| {
             let at = problem.contacts.iter().position(|contact| contact.pair.name == name)?;
             let contact = &problem.contacts[at];
             let mut gap = vec![0.0; problem.multiplier_count()];
-            gap[contact.range()].copy_from_slice(&weights(at, &solution.pressure(contact)));
+            gap[contact.range()].copy_from_slice(&weights(at, &self.solution.pressure(contact)));
             Some(Functional { load: nothing.clone(), gap })
         };
         let of_load = |load: Vec<f64>| Functional { load, gap: vec![0.0; problem.multiplier_count()] };
@@ -64,8 +63,8 @@ impl Duals<'_> {
             Quantity::Pressure(name) => of_pressure(name, &|at, pressure| self.pressure_weights(at, pressure)),
             Quantity::Peak(name) => of_pressure(name, &|_, pressure| peak_weights(pressure)),
             Quantity::Ends(name) => of_pressure(name, &|_, pressure| end_weights(pressure)),
-            Quantity::Displacement(point) => Some(of_load(point_force(problem, point, solution, system))),
-            Quantity::Stress(point) => Some(of_load(self.stress_load(problem, point, solution, system)?)),
+            Quantity::Displacement(point) => Some(of_load(point_force(problem, point, self.solution))),
+            Quantity::Stress(point) => Some(of_load(self.stress_load(problem, point)?)),
         })
     }
 
@@ -90,24 +89,18 @@ impl Duals<'_> {
 
     /// The nodal forces of the mean stress over the triangles that hold a point, in the direction in which it changed from the
     /// mesh before: this rank's part. **Collective**
-    fn stress_load(
-        &self,
-        problem: &Discretisation,
-        point: &ProbePoint,
-        solution: &Solution,
-        system: &System,
-    ) -> Result<Vec<f64>, SystemError> {
-        let (space, session) = (problem.finest(), system.session());
-        let mut change = solution.displacement.clone();
+    fn stress_load(&self, problem: &Discretisation, point: &ProbePoint) -> Result<Vec<f64>, SystemError> {
+        let space = problem.finest();
+        let mut change = self.solution.displacement.clone();
         if let Some(coarse) = self.coarse {
-            let before = coarse.displacement(&problem.scene, space, session.rank());
+            let before = coarse.displacement(&problem.scene, space, problem.session.rank());
             change.iter_mut().zip(before).for_each(|(now, before)| *now -= before);
         }
-        let change = Field::displacement(problem, &change, session);
+        let change = Field::displacement(problem, &change);
         let Some(region) = problem.scene.mesh.region(&point.body) else {
             return Ok(vec![0.0; space.local_unknowns()]);
         };
-        let forces = stress_forces(problem, &change, region, point.point, session)?;
+        let forces = stress_forces(problem, &change, region, point.point)?;
         Ok(load(problem, &forces))
     }
 }
@@ -152,44 +145,38 @@ fn end_weights(pressure: &ContactPressure) -> Vec<f64> {
 }
 
 /// A force of one at a point, in the direction that it moves in: this rank's part. **Collective**
-fn point_force(problem: &Discretisation, point: &ProbePoint, solution: &Solution, system: &System) -> Vec<f64> {
-    let session = system.session();
-    let u = Field::displacement(problem, &solution.displacement, session);
-    let mut force = Field::<2>::zeros(&problem.scene, problem.finest(), session);
+fn point_force(problem: &Discretisation, point: &ProbePoint, solution: &Solution) -> Vec<f64> {
+    let u = Field::displacement(problem, &solution.displacement);
+    let mut force = Field::<2>::zeros(&problem.scene, problem.finest(), &problem.session);
     let region = problem.scene.mesh.region(&point.body);
-    for (triangle, at) in region.map_or_else(Vec::new, |region| holding(problem, region, point.point, session)) {
+    for (triangle, at) in region.map_or_else(Vec::new, |region| holding(problem, region, point.point)) {
         let shapes = shapes_at(problem, triangle, at);
         let moved: Point = shapes.iter().fold(Point::zeros(), |sum, (node, value)| sum + *value * u.point(*node));
         let direction = moved.try_normalize(0.0).unwrap_or(Point::y());
         shapes.into_iter().for_each(|(node, value)| force.add_at(node, value * direction));
     }
-    load(problem, &force.sum(session))
+    load(problem, &force.sum(&problem.session))
 }
 
 /// What each cell of this rank's macro triangles counts for a goal: the product of what is left there of the solution and of the
 /// dual one. `left` are squares in the energy norm. **Collective**
-pub(crate) fn weighted(
-    problem: &Discretisation,
-    left: &[Cells],
-    dual: &[f64],
-    session: &Session,
-) -> Result<Vec<Cells>, SystemError> {
-    let dual = cell_energies(problem, &surplus(problem, dual, session), session)?;
+pub(crate) fn weighted(problem: &Discretisation, left: &[Cells], dual: &[f64]) -> Result<Vec<Cells>, SystemError> {
+    let dual = cell_energies(problem, &surplus(problem, dual))?;
     // Rounding may leave a rigid motion a little less than nothing.
     Ok(left.iter().zip(dual).map(|(u, z)| u.combined(&z, |u, z| (u * z).max(0.0).sqrt())).collect())
 }
 
 /// What the finest level adds to a displacement: its difference from its interpolant on the next coarser one. **Collective**
-fn surplus(problem: &Discretisation, unknowns: &[f64], session: &Session) -> Field<2> {
-    let whole = Field::displacement(problem, unknowns, session);
+fn surplus(problem: &Discretisation, unknowns: &[f64]) -> Field<2> {
+    let whole = Field::displacement(problem, unknowns);
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let level = space.numbering.level;
-    let left = space.unknowns_of(&problem.scene, session.rank(), |triangle| {
+    let left = space.unknowns_of(&problem.scene, problem.session.rank(), |triangle| {
         let (numbers, whole) = (space.numbering.triangle(mesh, triangle), &whole);
         move |node, at| {
             let take = |u, ((k, l), weight): (_, f64)| u - weight * whole.point(numbers.node(2 * k, 2 * l));
             coarse_values(mesh, triangle, level, at).fold(whole.point(node), take)
         }
     });
-    Field::displacement(problem, &left, session)
+    Field::displacement(problem, &left)
 }

@@ -8,7 +8,6 @@
 //! 1.4e-2 on about such a mesh.
 
 use crate::discretisation::{Discretisation, Field, Solution, SystemError, local_strain_energy};
-use crate::petsc::Session;
 use crate::recovery::heat_energies;
 
 /// Squares of the share of a difference that may be left, at least and at most: q/(1 - q), where squares fall by the q of a smooth
@@ -41,18 +40,18 @@ pub(crate) fn share(part: f64, whole: f64) -> f64 {
 
 /// Strain energies of macro triangles of this rank. Forces at points make one without limit, which says nothing of what is farther away:
 /// it is left out.
-pub(crate) fn without_points(problem: &Discretisation, parts: Vec<f64>, session: &Session) -> Vec<f64> {
-    let left_out = problem.scene.has_point_load(session.rank());
+pub(crate) fn without_points(problem: &Discretisation, parts: Vec<f64>) -> Vec<f64> {
+    let left_out = problem.scene.has_point_load(problem.session.rank());
     parts.into_iter().zip(left_out).map(|(part, is_out)| if is_out { 0.0 } else { part }).collect()
 }
 
 /// Strain energy without that at forces on points; not a number if too little is left to tell anything. Where heat strains next
 /// to nothing, a small share of what it would store if bodies could not grow. **Collective**
-pub(crate) fn whole_energy(problem: &Discretisation, u: &Field<2>, session: &Session) -> Result<f64, SystemError> {
-    let parts = local_strain_energy(problem, u, session)?;
+pub(crate) fn whole_energy(problem: &Discretisation, u: &Field<2>) -> Result<f64, SystemError> {
+    let parts = local_strain_energy(problem, u)?;
     let all = parts.iter().sum();
-    let [all, left] = session.sum([all, without_points(problem, parts, session).iter().sum()]);
-    let heat = heat_energies(problem, u, session)?;
+    let [all, left] = problem.session.sum([all, without_points(problem, parts).iter().sum()]);
+    let heat = heat_energies(problem, u)?;
     let [work, kept] = heat.iter().fold([0.0; 2], |[work, kept], heat| [work + heat.work, kept + heat.kept]);
     let elastic = left - work + kept;
     let whole = elastic.max(LEAST_KEPT * kept);
@@ -61,16 +60,11 @@ pub(crate) fn whole_energy(problem: &Discretisation, u: &Field<2>, session: &Ses
 
 /// Square of the difference of a solution from another displacement in the relative energy norm, on each macro triangle of this rank, in
 /// the rank's order. **Collective**
-pub(crate) fn energy_apart(
-    problem: &Discretisation,
-    solution: &Solution,
-    mut other: Vec<f64>,
-    session: &Session,
-) -> Result<Vec<f64>, SystemError> {
+pub(crate) fn energy_apart(problem: &Discretisation, solution: &Solution, mut other: Vec<f64>) -> Result<Vec<f64>, SystemError> {
     other.iter_mut().zip(&solution.displacement).for_each(|(other, now)| *other = now - *other);
-    let [u, apart] = [&solution.displacement, &other].map(|values| Field::displacement(problem, values, session));
-    let whole = whole_energy(problem, &u, session)?;
-    let parts = without_points(problem, local_strain_energy(problem, &apart, session)?, session);
+    let [u, apart] = [&solution.displacement, &other].map(|values| Field::displacement(problem, values));
+    let whole = whole_energy(problem, &u)?;
+    let parts = without_points(problem, local_strain_energy(problem, &apart)?);
     Ok(parts.into_iter().map(|part| share(part, whole)).collect())
 }
 

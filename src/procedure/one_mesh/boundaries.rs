@@ -129,7 +129,7 @@ impl OneMesh<'_> {
                 }
                 After::Moved { contacts, motion, start: next, is_near } => {
                     let _stage = self.procedure.observer.enter(Work::Contact);
-                    problem.replace(contacts, motion, self.procedure.session)?;
+                    problem.replace(contacts, motion)?;
                     (start, is_last) = (Some(next), is_near);
                 }
             }
@@ -161,11 +161,11 @@ impl OneMesh<'_> {
         if problem.follows() {
             let _stage = observer.enter(Work::Assembly);
             let load = load(problem, &nodal_forces(problem, session)?);
-            bodies.elastic = Some(Elastic::alone(problem, load, choice.form(), session)?);
+            bodies.elastic = Some(Elastic::alone(problem, load, choice.form())?);
         }
         if choice.form() == Form::Augmented {
             let _stage = observer.enter(Work::SetUp);
-            bodies.interpolations = interpolations(problem, session).into();
+            bodies.interpolations = interpolations(problem).into();
         }
         Ok(bodies)
     }
@@ -181,15 +181,15 @@ impl OneMesh<'_> {
         let blocks = {
             let _stage = observer.enter(Work::Assembly);
             match &bodies.elastic {
-                Some(elastic) => SaddlePoint::around(problem, elastic, choice.form(), session)?,
+                Some(elastic) => SaddlePoint::around(problem, elastic, choice.form())?,
                 None => {
                     let load = load(problem, &nodal_forces(problem, session)?);
-                    SaddlePoint::new(problem, load, choice.form(), session)?
+                    SaddlePoint::new(problem, load, choice.form())?
                 }
             }
         };
         let _stage = observer.enter(Work::SetUp);
-        let system = System::new(problem, blocks, &bodies.interpolations, *choice, preconditioning, session)?;
+        let system = System::new(problem, blocks, &bodies.interpolations, *choice, preconditioning)?;
         // Coarser meshes may have no use for what the mesh of the case asks for.
         let unused = if self.is_last { options::unused(session)? } else { Vec::new() };
         if unused.is_empty() { Ok(system) } else { Err(SystemError::UnusedOptions(unused)) }
@@ -279,10 +279,10 @@ impl OneMesh<'_> {
         following: &mut Following,
         history: &mut MeshHistory,
     ) -> Result<Option<After>, SystemError> {
-        let Procedure { session, observer, .. } = self.procedure;
+        let observer = self.procedure.observer;
         let followed = {
             let _stage = observer.enter(Work::Contact);
-            following.next(problem, solution, history.boundaries.len() + 1, session)
+            following.next(problem, solution, history.boundaries.len() + 1)
         };
         let (step, next) = match followed {
             Ok(followed) => followed,

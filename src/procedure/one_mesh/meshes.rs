@@ -139,10 +139,10 @@ impl Procedure<'_> {
         if converged {
             let _stage = self.observer.enter(Work::Recovery);
             if let Some(before) = &before {
-                coarser.differences.push(Difference::new(&problem, &found.solution, before, self.accuracy, self.session)?);
+                coarser.differences.push(Difference::new(&problem, &found.solution, before, self.accuracy)?);
             }
             let needed = (*preconditioning, is_hard || *ascended);
-            coarser.found = Some(CoarseSolution::new(*problem, found.solution, needed, self.session)?);
+            coarser.found = Some(CoarseSolution::new(*problem, found.solution, needed)?);
         }
         Ok(())
     }
@@ -171,7 +171,7 @@ impl Procedure<'_> {
         scene: &Scene,
         predecessor: Option<&Predecessor>,
     ) -> Result<Option<(Discretisation, Start)>, SystemError> {
-        match predecessor.map(|predecessor| predecessor.start_on(scene.clone(), self.session)) {
+        match predecessor.map(|predecessor| predecessor.start_on(scene.clone())) {
             Some(Ok(found)) => Ok(Some(found)),
             // Where a boundary lay there, it cannot here.
             None | Some(Err(SystemError::Case(_))) => Ok(None),
@@ -189,10 +189,10 @@ impl Procedure<'_> {
         let found = OneMesh { procedure: self, tolerance, is_last: true, is_hard }.solve(&mut problem, start, preconditioning)?;
         if let Some(coarse) = &coarse {
             let _stage = self.observer.enter(Work::Recovery);
-            differences.push(Difference::new(&problem, &found.solution, coarse, self.accuracy, self.session)?);
+            differences.push(Difference::new(&problem, &found.solution, coarse, self.accuracy)?);
         }
         let shares_left = match (predecessor, differences.as_slice()) {
-            (Some(before), [one]) => before.shares_left(&problem, &found.solution, &one.of_triangles, self.session)?,
+            (Some(before), [one]) => before.shares_left(&problem, &found.solution, &one.of_triangles)?,
             _ => Vec::new(),
         };
         let sum = |own: f64| self.session.sum([own])[0];

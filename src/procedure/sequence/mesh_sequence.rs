@@ -243,6 +243,7 @@ mod tests {
     use crate::discretisation::samples::{blocks, pair};
     use crate::discretisation::{BoundaryMotion, Coupling, Discretisation, WithoutContact, spaces};
     use crate::geometry::Point;
+    use crate::petsc::Session;
     use crate::procedure::ending::Standing;
 
     fn sequence() -> MeshSequence {
@@ -257,6 +258,7 @@ mod tests {
         let spaces = spaces(&scene, 0).expect("a small mesh");
         let coupling = Coupling { rows: Vec::new(), gap: Vec::new(), owners: Vec::new(), lost: Vec::new() };
         let problem = Discretisation {
+            session: Session::of_unit_tests(),
             scene,
             spaces,
             contacts: Vec::new(),

@@ -201,7 +201,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         // Bodies that nothing drives and nothing holds have forces of rounding alone, by which sets change for ever.
         let is_first = self.position.passes == 0 && self.passes.len() == 1;
         if let Some(words) =
-            is_first.then(|| adrift(self.system.problem(), self.system.active(), self.system.session())).flatten()
+            is_first.then(|| adrift(self.system.problem(), self.system.active(), &self.system.problem().session)).flatten()
         {
             return Ok(Next::End(Ending::NotConverged(Failure::NotHeld(words))));
         }
@@ -256,13 +256,13 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         let told = state.told_from(problem, doubt);
         let force = |i: usize| told.force(i);
         let change = if self.set.ascends() { self.set.ascend(&told.found()) } else { self.set.update(force) };
-        let lost = not_held(problem, self.set.active(), self.system.session());
+        let lost = not_held(problem, self.set.active(), &problem.session);
         let is_new = matches!(change, SetChange::Changed { .. }) || self.set.ascends() && change == SetChange::Repeated;
         if lost.is_none() || self.kept == MOST_KEPT || !is_new {
             return NextSet { change, lost };
         }
         self.kept += 1;
-        let few = few_that_hold(problem, self.set.active(), force, self.system.session());
+        let few = few_that_hold(problem, self.set.active(), force, &problem.session);
         NextSet { change: self.set.keep(&few, self.system.active()), lost: None }
     }
 
@@ -386,7 +386,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
 
     /// Change of the displacement since the pass before, relative to its norm. **Collective**
     fn change(&self) -> f64 {
-        self.system.with_free_displacement(|now| relative_change(now, &self.before, self.system.session()))
+        self.system.with_free_displacement(|now| relative_change(now, &self.before, &self.system.problem().session))
     }
 }
 

@@ -14,7 +14,7 @@ const CLOSED: f64 = 1e-6;
 /// above those of the loads: what they say of the next set is nothing.
 pub(crate) fn first_set(system: &System) -> Option<Vec<bool>> {
     let problem = system.problem();
-    let start = rigid_start(problem, system.session().rank()).unwrap_or_else(|| vec![0.0; problem.finest().local_unknowns()]);
+    let start = rigid_start(problem, problem.session.rank()).unwrap_or_else(|| vec![0.0; problem.finest().local_unknowns()]);
     let gap = gaps(system, &start);
     let mut active = vec![true; gap.len()];
     for contact in &problem.contacts {
@@ -48,8 +48,9 @@ fn gaps(system: &System, displacement: &[f64]) -> Vec<f64> {
 
 /// Closes what has the smallest gap, with the bodies displaced, until all are held or all is closed. **Collective**
 fn hold(system: &System, displacement: &[f64], active: &mut [bool]) {
-    if not_held(system.problem(), active, system.session()).is_some() {
+    let problem = system.problem();
+    if not_held(problem, active, &problem.session).is_some() {
         let gap = gaps(system, displacement);
-        few_that_hold(system.problem(), active, |i| -gap[i], system.session()).into_iter().for_each(|i| active[i] = true);
+        few_that_hold(problem, active, |i| -gap[i], &problem.session).into_iter().for_each(|i| active[i] = true);
     }
 }

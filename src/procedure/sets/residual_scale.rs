@@ -34,7 +34,7 @@ const SMALL: f64 = 1e-10;
 /// residual relative to all of it says nothing of these. So the part that moves the bodies rigidly does not count.
 /// **Collective**
 pub(crate) fn share(system: &System) -> Result<f64, SystemError> {
-    let Some(displacement) = rigid_start(system.problem(), system.session().rank()) else { return Ok(1.0) };
+    let Some(displacement) = rigid_start(system.problem(), system.problem().session.rank()) else { return Ok(1.0) };
     let share = system.residual_of_displacement(&displacement)?.relative();
     Ok(if share > 0.0 { share.clamp(LEAST_SHARE, 1.0) } else { 1.0 })
 }

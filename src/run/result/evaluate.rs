@@ -38,7 +38,7 @@ impl Run<'_> {
             let flat = slivers(&solved.problem.scene.mesh).filter(|_| !adaptation.is_reached());
             reason += &flat.map_or(String::new(), |words| format!("; {words}"));
         }
-        if solved.is_idle(self.session) {
+        if solved.is_idle() {
             (status, reason) = (Status::Converged, IDLE.into());
         } else if status != Status::Converged && !solved.is_driven() {
             reason = format!("{IDLE}, if they are held; {TO_DRIVE}");
@@ -57,9 +57,9 @@ impl Run<'_> {
     /// Fields, traces, balances and errors, the status and the reason so far; their files too. **Collective**
     fn evaluate(&self, summary: Summary, solved: &Solved) -> Result<(Summary, Status, String), RunError> {
         progress::enter(Work::Recovery);
-        let found = Evaluation::new(&solved.problem, &solved.solution, self.session)?;
+        let found = Evaluation::new(&solved.problem, &solved.solution)?;
         self.report.warn_all(&large_strains(&found));
-        if !solved.is_idle(self.session) {
+        if !solved.is_idle() {
             self.report.warn_all(&loaded_points(&found));
         }
         let (mut contacts, mut estimates) = (BTreeMap::new(), BTreeMap::new());
@@ -92,7 +92,7 @@ impl Run<'_> {
     /// Expected values and trust: the status, and the reason so far. `missed` are values that the case expects. **Collective**
     fn judge(&self, summary: &mut Summary, solved: &Solved, missed: &[String]) -> (Status, String) {
         // Where nothing happens, rounding is all that a residual tells.
-        let idle = solved.is_idle(self.session);
+        let idle = solved.is_idle();
         let (mut status, mut reason) = if idle { (Status::Converged, IDLE.into()) } else { ended(solved) };
         let (converged, mut none) = (status == Status::Converged, None);
         let loose = if idle || !converged && !solved.violates_contact() { None } else { adrift(self, summary, solved) };
@@ -131,7 +131,7 @@ impl Run<'_> {
 /// Words for a body that is held by contacts alone on which rounding presses, and that nothing drives. **Collective**
 fn adrift(run: &Run, summary: &Summary, solved: &Solved) -> Option<String> {
     let names = pressed_by_rounding(summary, run.case);
-    let words = solved.adrift_without(&names, run.session)?;
+    let words = solved.adrift_without(&names)?;
     Some(format!("contact {}: what presses is rounding, so that where its bodies lie is not told: {words}", names.first()?))
 }
 

@@ -43,7 +43,7 @@ impl Observer for Run<'_> {
         progress::observe(&event);
         if let Event::Adapted { accuracy, solved, .. } = event {
             let _stage = self.stages.output.enter();
-            let errors = true_errors(self.case, &accuracy.goals, solved, self.session);
+            let errors = true_errors(self.case, &accuracy.goals, solved);
             // What cannot be looked at is told by the evaluation of the result.
             self.true_errors.borrow_mut().push(errors.unwrap_or_default());
         }

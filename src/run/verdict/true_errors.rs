@@ -5,7 +5,6 @@ use crate::case::{BodyExact, Case, ContactExact, LambdaExact};
 use crate::discretisation::SystemError;
 use crate::geometry::Point;
 use crate::mesh::{Region, Surface};
-use crate::petsc::Session;
 use crate::procedure::Solved;
 use crate::recovery::Evaluation;
 
@@ -13,11 +12,11 @@ use crate::recovery::Evaluation;
 ///
 /// # Errors
 /// [`SystemError`] from PETSc or an inverted triangle.
-pub fn true_errors(case: &Case, goals: &[Goal], solved: &Solved, session: &Session) -> Result<Vec<Option<f64>>, SystemError> {
+pub fn true_errors(case: &Case, goals: &[Goal], solved: &Solved) -> Result<Vec<Option<f64>>, SystemError> {
     if !solved.is_solved() || !goals.iter().any(|goal| is_told(case, &goal.quantity)) {
         return Ok(vec![None; goals.len()]);
     }
-    let found = Evaluation::new(&solved.problem, &solved.solution, session)?;
+    let found = Evaluation::new(&solved.problem, &solved.solution)?;
     goals.iter().map(|goal| Ok(error(case, &goal.quantity, &found)?.filter(|error| error.is_finite()))).collect()
 }
 

@@ -71,14 +71,14 @@ pub enum BorderUnknown {
 
 impl BorderBlocks {
     /// Blocks for no set yet.
-    pub fn new(problem: &Discretisation, border: Rc<RigidBorder>, form: Form, session: &Session) -> Self {
+    pub fn new(problem: &Discretisation, border: Rc<RigidBorder>, form: Form) -> Self {
         let (weights, unknowns) = (Augmentation::new(&problem.contacts), problem.finest().local_unknowns());
         let none = DMatrix::zeros(0, 0);
         Self {
             border,
             form,
             weights,
-            session: session.clone(),
+            session: problem.session.clone(),
             unknowns,
             linked: Vec::new(),
             columns: Vec::new(),

@@ -133,6 +133,7 @@ mod tests {
     use crate::discretisation::{BoundaryMotion, Contact, Coupling, WithoutContact, spaces};
     use crate::geometry::Point;
     use crate::mesh::{Numbering, Partition};
+    use crate::petsc::Session;
     use crate::system::saddle_point::augmentation::Augmentation;
     use std::rc::Rc;
 
@@ -159,6 +160,7 @@ mod tests {
         let coupling = Coupling { rows, gap: vec![0.0; count], owners, lost: vec![0] };
         let contacts = contacts.into_iter().next().expect("rank 0");
         Discretisation {
+            session: Session::of_unit_tests(),
             scene,
             spaces,
             contacts,

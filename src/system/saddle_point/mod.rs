@@ -39,6 +39,8 @@ use std::rc::Rc;
 
 /// The blocks and their levels for one active set at a time.
 pub struct SaddlePoint {
+    /// All ranks.
+    pub session: Session,
     /// `K + Bᵀ D B` on every level, coarsest first; only the finest in the plain form.
     pub stiffness: Vec<Stiffness>,
     /// The blocks with a multiplier side.
@@ -65,17 +67,17 @@ pub struct SaddlePoint {
 impl SaddlePoint {
     /// Assembles all blocks, with every multiplier active. `load` are the nodal forces of this rank's unknowns, in the nodes'
     /// frames, zero where displacement is prescribed; what prescribed displacements add is put in here. **Collective**
-    pub fn new(problem: &Discretisation, load: Vec<f64>, form: Form, session: &Session) -> Result<Self, SystemError> {
-        let (rows, neighbours) = rows_and_neighbours(problem, form, session.rank());
-        let elastic = Elastic::new(problem, load, form, &neighbours, session)?;
-        Self::with(problem, rows, elastic.stiffness, elastic.load, form, session)
+    pub fn new(problem: &Discretisation, load: Vec<f64>, form: Form) -> Result<Self, SystemError> {
+        let (rows, neighbours) = rows_and_neighbours(problem, form);
+        let elastic = Elastic::new(problem, load, form, &neighbours)?;
+        Self::with(problem, rows, elastic.stiffness, elastic.load, form)
     }
 
     /// Assembles the blocks of contact around the stiffness of the bodies, which is kept. **Collective**
-    pub fn around(problem: &Discretisation, elastic: &Elastic, form: Form, session: &Session) -> Result<Self, SystemError> {
-        let (rows, neighbours) = rows_and_neighbours(problem, form, session.rank());
-        let stiffness = elastic.with_places(problem, form, &neighbours, session)?;
-        Self::with(problem, rows, stiffness, elastic.load.clone(), form, session)
+    pub fn around(problem: &Discretisation, elastic: &Elastic, form: Form) -> Result<Self, SystemError> {
+        let (rows, neighbours) = rows_and_neighbours(problem, form);
+        let stiffness = elastic.with_places(problem, form, &neighbours)?;
+        Self::with(problem, rows, stiffness, elastic.load.clone(), form)
     }
 
     fn with(
@@ -84,26 +86,38 @@ impl SaddlePoint {
         stiffness: Vec<Stiffness>,
         load: Vec<f64>,
         form: Form,
-        session: &Session,
     ) -> Result<Self, SystemError> {
         let all: Vec<usize> = (0..problem.multiplier_count()).collect();
         let active = vec![true; all.len()];
         let mut augmentation = Augmentation::new(&problem.contacts);
         let groups = if form == Form::Augmented { augmentation.groups_of(all.iter().copied()) } else { Default::default() };
         let change = augmentation.change(&groups, &problem.contacts, &active);
-        let multipliers = MultiplierBlocks::new(problem, &rows[rows.len() - 1], &augmentation, form, session)?;
+        let multipliers = MultiplierBlocks::new(problem, &rows[rows.len() - 1], &augmentation, form)?;
         let finest = &stiffness[stiffness.len() - 1];
         let blocks = [[finest.operator(), &multipliers.transpose], [&multipliers.coupling, &multipliers.corner]];
-        let (nest, product) = (Matrix::nest(session, blocks)?, Matrix::nest_product(session, blocks)?);
-        let (gap, load) = (moved_gap(problem, session), KeptLoad::new(load));
+        let (nest, product) = (Matrix::nest(&problem.session, blocks)?, Matrix::nest_product(&problem.session, blocks)?);
+        let (gap, load) = (moved_gap(problem), KeptLoad::new(load));
         let places = if form == Form::Augmented {
             let levels = rows.iter().zip(&problem.spaces).zip(&stiffness);
             levels.map(|((rows, space), matrix)| ContactPlaces::new(rows, &augmentation.members, &space.own, matrix)).collect()
         } else {
             Vec::new()
         };
-        let mut system =
-            Self { stiffness, multipliers, nest, product, border: None, gap, active, augmentation, rows, places, form, load };
+        let mut system = Self {
+            session: problem.session.clone(),
+            stiffness,
+            multipliers,
+            nest,
+            product,
+            border: None,
+            gap,
+            active,
+            augmentation,
+            rows,
+            places,
+            form,
+            load,
+        };
         system.augment(&change)?;
         system.fill(problem, &all)?;
         Ok(system)
@@ -132,16 +146,11 @@ impl SaddlePoint {
     }
 
     /// Takes unknown rigid motions in. **Collective**
-    pub fn with_border(
-        mut self,
-        problem: &Discretisation,
-        border: Rc<RigidBorder>,
-        session: &Session,
-    ) -> Result<Self, SystemError> {
-        let border = Rc::new(RefCell::new(BorderBlocks::new(problem, border, self.form, session)));
+    pub fn with_border(mut self, problem: &Discretisation, border: Rc<RigidBorder>) -> Result<Self, SystemError> {
+        let border = Rc::new(RefCell::new(BorderBlocks::new(problem, border, self.form)));
         let rows = self.product.local_size().0;
         let product = BorderedProduct { blocks: self.product.share()?, border: border.clone() };
-        (self.product, self.border) = (Matrix::operator(session, rows, rows, Box::new(product))?, Some(border));
+        (self.product, self.border) = (Matrix::operator(&problem.session, rows, rows, Box::new(product))?, Some(border));
         self.set_border(problem);
         Ok(self)
     }
@@ -179,14 +188,14 @@ impl SaddlePoint {
 
     /// The system with all rows of the stiffness stored, as factorisations of `K + Bᵀ D B` want it; `None` if they are.
     /// **Collective**
-    pub fn stored_nest(&self, session: &Session) -> Result<Option<Matrix>, SystemError> {
+    pub fn stored_nest(&self) -> Result<Option<Matrix>, SystemError> {
         let blocks = &self.multipliers;
-        let expanded = self.finest_stiffness().expanded(session)?;
+        let expanded = self.finest_stiffness().expanded(&self.session)?;
         if blocks.scale.is_empty() {
             // Of a nest whose other blocks are empty PETSc takes the whole nest for `K`.
             return Ok(Some(expanded.map_or_else(|| self.finest_stiffness().operator().convert_aij(), Ok)?));
         }
-        let nest = |stiffness| Matrix::nest(session, [[stiffness, &blocks.transpose], [&blocks.coupling, &blocks.corner]]);
+        let nest = |stiffness| Matrix::nest(&self.session, [[stiffness, &blocks.transpose], [&blocks.coupling, &blocks.corner]]);
         Ok(expanded.as_ref().map(nest).transpose()?)
     }
 
@@ -202,13 +211,13 @@ impl SaddlePoint {
 
     /// `(B (u + R q) - c)_i` of all multipliers, for this rank's displacements and the motion beside them (length squared).
     /// **Collective**
-    pub fn penetration(&self, u: &[f64], motion: &[f64], space: &Space, session: &Session) -> Vec<f64> {
+    pub fn penetration(&self, u: &[f64], motion: &[f64], space: &Space) -> Vec<f64> {
         let mut all = vec![0.0; self.gap.len()];
         for (i, sum) in all.iter_mut().enumerate() {
             let entries = self.finest_rows().own_row(i, &space.own);
             entries.for_each(|(at, entry)| *sum += entry.x * u[at] + entry.y * u[at + 1]);
         }
-        session.sum(&mut all);
+        self.session.sum(&mut all);
         all.iter_mut().zip(&self.gap).for_each(|(sum, gap)| *sum -= gap);
         if let Some(border) = &self.border {
             all.iter_mut().zip(border.borrow().border.gaps_of(motion)).for_each(|(sum, moved)| *sum += moved);
@@ -271,11 +280,11 @@ impl SaddlePoint {
 
     /// Relative residual of the plain system, from the residual `r` of this one, which becomes that: `r_u - Bᵀ D r_λ`.
     /// **Collective**
-    pub fn plain_residual(&self, mut r: Vector, b: &Vector, space: &Space, session: &Session) -> Result<f64, SystemError> {
+    pub fn plain_residual(&self, mut r: Vector, b: &Vector, space: &Space) -> Result<f64, SystemError> {
         if self.form == Form::Augmented {
             let mut values = r.values_mut();
             let (upper, lower) = values.split_at_mut(space.local_unknowns());
-            let lower = self.multipliers.collect(lower, session);
+            let lower = self.multipliers.collect(lower);
             let unscaled: Vec<f64> = lower.iter().zip(&self.multipliers.scale).map(|(r, s)| r / s).collect();
             self.add_weighted(&unscaled, -1.0, upper, space);
         }
@@ -294,20 +303,20 @@ impl SaddlePoint {
     }
 }
 
-/// Rows of `B` that a rank needs, and the nodes that contact couples to its own, on every level.
-fn rows_and_neighbours(problem: &Discretisation, form: Form, rank: usize) -> (Vec<CouplingRows>, Vec<ContactNeighbours>) {
+/// Rows of `B` that this rank needs, and the nodes that contact couples to its own, on every level.
+fn rows_and_neighbours(problem: &Discretisation, form: Form) -> (Vec<CouplingRows>, Vec<ContactNeighbours>) {
     let augmentation = Augmentation::new(&problem.contacts);
-    let rows = CouplingRows::of_levels(problem, &augmentation.members, rank);
+    let rows = CouplingRows::of_levels(problem, &augmentation.members, problem.session.rank());
     let groups = if form == Form::Augmented { augmentation.members.as_slice() } else { &[] };
     let neighbours = rows.iter().zip(&problem.spaces).map(|(rows, space)| rows.neighbours(groups, &space.own)).collect();
     (rows, neighbours)
 }
 
 /// `c - B u_D`. **Collective**
-fn moved_gap(problem: &Discretisation, session: &Session) -> Vec<f64> {
+fn moved_gap(problem: &Discretisation) -> Vec<f64> {
     let (mesh, space, coupling) = (&problem.scene.mesh, problem.finest(), &problem.coupling);
     let prescribed = |coupled: &Coupled| coupled.value.dot(&space.prescribed(coupled.node.number(mesh, &space.numbering)));
     let mut moved = vec![0.0; coupling.gap.len()];
-    coupling.own(0..moved.len(), session.rank()).for_each(|i| moved[i] = coupling.rows[i].iter().map(prescribed).sum());
-    coupling.gap.iter().zip(session.sum(moved)).map(|(c, moved)| c - moved).collect()
+    coupling.own(0..moved.len(), problem.session.rank()).for_each(|i| moved[i] = coupling.rows[i].iter().map(prescribed).sum());
+    coupling.gap.iter().zip(problem.session.sum(moved)).map(|(c, moved)| c - moved).collect()
 }

@@ -46,6 +46,7 @@ impl SchurPattern {
 
 /// The multiplier blocks, with the numbers and scales of the multipliers.
 pub struct MultiplierBlocks {
+    session: Session,
     /// `B̂ = s B`.
     pub coupling: Matrix,
     /// `B̂ᵀ (I - D̂ Ĉ)`; without a jump term `B̂ᵀ`.
@@ -76,19 +77,13 @@ impl MultiplierBlocks {
     /// Empty blocks with exact preallocation; `rows` are those of `B` on the finest level, `all` are the weights of all
     /// multipliers. The plain form is made into one matrix, so that all entries are wanted.
     /// **Collective**
-    pub fn new(
-        problem: &Discretisation,
-        rows: &CouplingRows,
-        all: &Augmentation,
-        form: Form,
-        session: &Session,
-    ) -> Result<Self, SystemError> {
+    pub fn new(problem: &Discretisation, rows: &CouplingRows, all: &Augmentation, form: Form) -> Result<Self, SystemError> {
         let owners = &problem.coupling.owners;
         let mut order: Vec<usize> = (0..owners.len()).collect();
         order.sort_by_key(|&i| (owners[i], i));
         let mut number = vec![0; owners.len()];
         order.iter().enumerate().for_each(|(at, &i)| number[i] = at);
-        let own: Vec<usize> = order.into_iter().filter(|&i| owners[i] == session.rank()).collect();
+        let own: Vec<usize> = order.into_iter().filter(|&i| owners[i] == problem.session.rank()).collect();
         let scale = |contact: &Contact| {
             let moduli = contact.multiplier_moduli.iter().enumerate();
             moduli.map(|(i, modulus)| modulus / contact.multipliers.length(i)).collect::<Vec<f64>>()
@@ -103,17 +98,18 @@ impl MultiplierBlocks {
         let is_stored = form == Form::Plain || problem.jumps().next().is_some();
         let columns: Vec<Vec<usize>> = if is_stored { (0..owners.len()).map(own_nodes).collect() } else { Vec::new() };
         let corner = if problem.jumps().next().is_some() { SchurPattern::Mixed } else { SchurPattern::Diagonal };
-        let coupling = coupling_matrix(rows, &own, space, session)?;
+        let coupling = coupling_matrix(rows, &own, space, &problem.session)?;
         let transpose = match is_stored {
-            true => transpose_matrix(&columns, owners, own.len(), space, session)?,
+            true => transpose_matrix(&columns, owners, own.len(), space, &problem.session)?,
             false => coupling.transposed()?,
         };
         Ok(Self {
+            session: problem.session.clone(),
             coupling,
             transpose,
             is_stored,
-            corner: corner.matrix(own.len(), session)?,
-            schur: pattern.matrix(own.len(), session)?,
+            corner: corner.matrix(own.len(), &problem.session)?,
+            schur: pattern.matrix(own.len(), &problem.session)?,
             pattern,
             scale: problem.contacts.iter().flat_map(scale).collect(),
             own,
@@ -208,10 +204,10 @@ impl MultiplierBlocks {
     }
 
     /// This rank's multiplier entries brought together on every rank, in the order along the boundaries. **Collective**
-    pub fn collect(&self, own: &[f64], session: &Session) -> Vec<f64> {
+    pub fn collect(&self, own: &[f64]) -> Vec<f64> {
         let mut all = vec![0.0; self.scale.len()];
         self.own.iter().zip(own).for_each(|(&i, &value)| all[i] = value);
-        session.sum(all)
+        self.session.sum(all)
     }
 }
 

@@ -1,8 +1,8 @@
 //! The preconditioner of the whole system, without the copies of its parts that PETSc's fieldsplit makes.
 
 use crate::multigrid::Cycle;
-use crate::petsc::{Action, Krylov, Matrix, Result, Session, Vector, Window};
-use crate::system::saddle_point::{BorderBlocks, BorderUnknown};
+use crate::petsc::{Action, Krylov, Matrix, Result, Vector, Window};
+use crate::system::saddle_point::{BorderBlocks, BorderUnknown, SaddlePoint};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -14,7 +14,6 @@ pub struct BlockTriangle {
     /// Rigid motions, and multipliers of means, that the cycle has been told of.
     told: RefCell<Vec<BorderUnknown>>,
     border: Option<Rc<RefCell<BorderBlocks>>>,
-    session: Session,
     lower: Krylov,
     coupling: Matrix,
     room: RefCell<Room>,
@@ -29,28 +28,23 @@ struct Room {
 }
 
 impl BlockTriangle {
-    /// From the solver of the lower field and the coupling `B`. **Collective**
-    pub fn new(
-        cycle: &Rc<RefCell<Cycle>>,
-        lower: Krylov,
-        coupling: &Matrix,
-        border: Option<Rc<RefCell<BorderBlocks>>>,
-        session: &Session,
-    ) -> Result<Rc<Self>> {
-        let (rows, columns) = coupling.local_size();
+    /// From the solver of the lower field and the coupling `B` of a system. **Collective**
+    pub fn new(cycle: &Rc<RefCell<Cycle>>, lower: Krylov, system: &SaddlePoint) -> Result<Rc<Self>> {
+        let SaddlePoint { session, multipliers, border, .. } = system;
+        let (rows, columns) = multipliers.transpose.local_size();
         let room = Room {
             upper: Window::new(session, rows)?,
             lower: [Window::new(session, columns)?, Window::new(session, columns)?],
             force: vec![0.0; rows],
             minus: vec![0.0; columns],
         };
-        let (cycle, coupling, session) = (cycle.clone(), coupling.share()?, session.clone());
-        Ok(Rc::new(Self { cycle, told: RefCell::new(Vec::new()), border, session, lower, coupling, room: RefCell::new(room) }))
+        let (cycle, border, coupling) = (cycle.clone(), border.clone(), multipliers.transpose.share()?);
+        Ok(Rc::new(Self { cycle, told: RefCell::new(Vec::new()), border, lower, coupling, room: RefCell::new(room) }))
     }
 
     /// Tells the cycle of unknowns of the border, those of before no longer. **Collective**
     pub fn tell(&self, border: &BorderBlocks, unknowns: Vec<BorderUnknown>) {
-        self.cycle.borrow_mut().set_border(border.for_cycle(&unknowns), &self.session);
+        self.cycle.borrow_mut().set_border(border.for_cycle(&unknowns));
         self.told.replace(unknowns);
     }
 }

@@ -14,7 +14,7 @@
 use super::block_triangle::BlockTriangle;
 use crate::discretisation::Form;
 use crate::multigrid::scaled_inverse;
-use crate::petsc::{Action, Result, Session, Vector};
+use crate::petsc::{Action, Result, Vector};
 use crate::system::saddle_point::{BorderBlocks, BorderUnknown, SaddlePoint};
 use nalgebra::{DMatrix, DVector};
 use std::cell::{Cell, RefCell};
@@ -55,7 +55,6 @@ pub struct Bordered {
     triangle: Option<Rc<BlockTriangle>>,
     border: Rc<RefCell<BorderBlocks>>,
     form: Form,
-    session: Session,
     /// What belongs to a set; nothing until somebody has asked for it.
     of_set: RefCell<Option<OfSet>>,
     /// Whether that is another set, or not prepared yet.
@@ -77,10 +76,8 @@ impl Bordered {
         triangle: Option<Rc<BlockTriangle>>,
         border: Rc<RefCell<BorderBlocks>>,
         form: Form,
-        session: &Session,
     ) -> Rc<Self> {
-        let (session, of_set) = (session.clone(), RefCell::new(None));
-        Rc::new(Self { of_blocks, triangle, border, form, session, of_set, is_stale: Cell::new(true) })
+        Rc::new(Self { of_blocks, triangle, border, form, of_set: RefCell::new(None), is_stale: Cell::new(true) })
     }
 
     /// Blocks have changed.
@@ -119,7 +116,7 @@ impl Bordered {
                 works[count * i + j] = z.values().iter().zip(r.values().iter()).map(|(a, b)| a * b).sum();
             }
         }
-        self.session.sum(&mut works);
+        system.session.sum(&mut works);
         let mut schur = DMatrix::zeros(count, count);
         for (j, z) in responses.iter().enumerate() {
             let sums = border.sums(&z.values());

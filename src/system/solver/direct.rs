@@ -4,7 +4,7 @@ use super::field_split::replace_action;
 use super::options::Options;
 use super::prepared::{Prepared, set_plain_operators};
 use crate::discretisation::{Form, SystemError};
-use crate::petsc::{self, Krylov, Session};
+use crate::petsc::{self, Krylov};
 use crate::system::saddle_point::SaddlePoint;
 
 /// PETSc options of the direct solver.
@@ -24,16 +24,16 @@ const OPTIONS: Options = &[
 ///
 /// # Errors
 /// [`SystemError`] from PETSc.
-pub fn direct(system: &SaddlePoint, session: &Session) -> Result<Prepared, SystemError> {
+pub fn direct(system: &SaddlePoint) -> Result<Prepared, SystemError> {
     for (name, value) in OPTIONS {
-        petsc::options::set_default(session, name, value)?;
+        petsc::options::set_default(&system.session, name, value)?;
     }
-    let krylov = Krylov::new(session, "")?;
+    let krylov = Krylov::new(&system.session, "")?;
     set_plain_operators(&krylov, system)?;
     krylov.set_from_options()?;
     krylov.watch()?;
     krylov.set_up()?;
-    let (_replaced, bordered) = replace_action(&krylov, None, system, Form::Plain, session)?;
+    let (_replaced, bordered) = replace_action(&krylov, None, system, Form::Plain)?;
     let (levels, name) = (None, "direct (MUMPS)".into());
     Ok(Prepared { krylov, _replaced, bordered, levels, name })
 }

@@ -8,7 +8,7 @@ use super::preconditioning::Preconditioning;
 use super::prepared::{Prepared, set_operators};
 use crate::discretisation::{Form, SystemError};
 use crate::multigrid::{Cycle, GalerkinLevels, Interpolation, Stiffness, takes_another_preconditioner};
-use crate::petsc::{self, Action, Krylov, Preconditioner, ReplacedAction, Session};
+use crate::petsc::{self, Action, Krylov, Preconditioner, ReplacedAction};
 use crate::system::saddle_point::SaddlePoint;
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -17,16 +17,11 @@ use std::rc::Rc;
 ///
 /// # Errors
 /// [`SystemError`] from PETSc.
-pub fn field_split(
-    system: &SaddlePoint,
-    interpolations: &Rc<[Interpolation]>,
-    rung: Rung,
-    session: &Session,
-) -> Result<Prepared, SystemError> {
+pub fn field_split(system: &SaddlePoint, interpolations: &Rc<[Interpolation]>, rung: Rung) -> Result<Prepared, SystemError> {
     let preconditioning = rung.preconditioning;
-    set_options(system, rung, session)?;
-    let krylov = Krylov::new(session, "")?;
-    set_operators(&krylov, system, preconditioning, session)?;
+    set_options(system, rung)?;
+    let krylov = Krylov::new(&system.session, "")?;
+    set_operators(&krylov, system, preconditioning)?;
     let [u, lambda] = system.nest.nest_index_sets()?;
     let preconditioner = krylov.preconditioner();
     preconditioner.field_split_schur(&[("u", &u), ("lambda", &lambda)], &system.multipliers.schur)?;
@@ -35,24 +30,24 @@ pub fn field_split(
     krylov.set_up()?;
     let levels = match preconditioning {
         Preconditioning::Factor => None,
-        _ if takes_another_preconditioner(session) => {
+        _ if takes_another_preconditioner(&system.session) => {
             // Without multipliers PETSc takes the whole nest for its first block: no preconditioner makes anything of a nest. With
             // multipliers this is the block that it has.
             let stiffness = system.finest_stiffness().operator();
             preconditioner.field_split_solvers()?[0].set_operators(stiffness, stiffness)?;
             None
         }
-        _ => Some(levels(&preconditioner, system, interpolations, preconditioning, session)?),
+        _ => Some(levels(&preconditioner, system, interpolations, preconditioning)?),
     };
     let cycle = levels.as_ref().map(|(_, cycle)| cycle);
-    let block_triangle = match cycle.filter(|_| !is_split_changed(session)) {
+    let block_triangle = match cycle.filter(|_| !is_split_changed(&system.session)) {
         Some(cycle) => {
             let lower = preconditioner.field_split_solvers()?.pop().expect("two fields");
-            Some(BlockTriangle::new(cycle, lower, &system.multipliers.transpose, system.border.clone(), session)?)
+            Some(BlockTriangle::new(cycle, lower, system)?)
         }
         None => None,
     };
-    let (_replaced, bordered) = replace_action(&krylov, block_triangle, system, Form::Augmented, session)?;
+    let (_replaced, bordered) = replace_action(&krylov, block_triangle, system, Form::Augmented)?;
     let kind = preconditioner.field_split_solvers()?[0].preconditioner().kind();
     // A factor is made by all ranks together, or by each for itself.
     let is_factor = preconditioning == Preconditioning::Factor && ["cholesky", "redundant"].contains(&kind.as_str());
@@ -61,17 +56,17 @@ pub fn field_split(
 }
 
 /// Sets the options of the field split, where the user has set none.
-fn set_options(system: &SaddlePoint, Rung { method, preconditioning, .. }: Rung, session: &Session) -> Result<(), SystemError> {
-    let lambda = lambda_options(system.multipliers.pattern, session.size());
+fn set_options(system: &SaddlePoint, Rung { method, preconditioning, .. }: Rung) -> Result<(), SystemError> {
+    let lambda = lambda_options(system.multipliers.pattern, system.session.size());
     let method = [("-ksp_type", method)];
     // A factor before leaves its package behind, which goes with nothing else.
     for (name, _) in FACTOR.iter().chain(REDUNDANT_FACTOR) {
-        petsc::options::clear(session, name)?;
+        petsc::options::clear(&system.session, name)?;
     }
     let is_factor = preconditioning == Preconditioning::Factor;
-    let (whole, factor): (Options, Options) = if is_factor { (FACTOR, redundant_factor(system, session)) } else { (&[], &[]) };
+    let (whole, factor): (Options, Options) = if is_factor { (FACTOR, redundant_factor(system)) } else { (&[], &[]) };
     for (name, value) in FIELD_SPLIT.iter().chain(lambda).chain(whole).chain(&method).chain(factor) {
-        petsc::options::set_default(session, name, value)?;
+        petsc::options::set_default(&system.session, name, value)?;
     }
     Ok(())
 }
@@ -82,12 +77,11 @@ fn levels(
     system: &SaddlePoint,
     interpolations: &[Interpolation],
     preconditioning: Preconditioning,
-    session: &Session,
 ) -> Result<(GalerkinLevels, Rc<RefCell<Cycle>>), SystemError> {
     let steps: Vec<_> = interpolations.iter().filter_map(|step| step.coarsening.clone()).collect();
-    let auxiliary = GalerkinLevels::new(system.stiffness[0].lattice(), &steps, session);
+    let auxiliary = GalerkinLevels::new(system.stiffness[0].lattice(), &steps, &system.session);
     let all = auxiliary.iter().chain(system.stiffness.iter().map(Stiffness::lattice));
-    let cycle = Rc::new(RefCell::new(Cycle::new(all, interpolations, preconditioning.conjugate_steps(), session)?));
+    let cycle = Rc::new(RefCell::new(Cycle::new(all, interpolations, preconditioning.conjugate_steps(), &system.session)?));
     let solver = preconditioner.field_split_solvers()?.swap_remove(0);
     let action = Box::new(cycle.clone());
     solver.preconditioner().set_action("multigrid F-cycle on even macro triangles and stored rows", action)?;
@@ -102,7 +96,6 @@ pub(super) fn replace_action(
     block_triangle: Option<Rc<BlockTriangle>>,
     system: &SaddlePoint,
     form: Form,
-    session: &Session,
 ) -> Result<(Option<ReplacedAction>, Option<Rc<Bordered>>), SystemError> {
     let Some(border) = &system.border else {
         let replaced = block_triangle.map(|action| ReplacedAction::new(krylov.preconditioner(), |_| Ok(Box::new(action))));
@@ -111,7 +104,7 @@ pub(super) fn replace_action(
     let mut bordered = None;
     let replaced = ReplacedAction::new(krylov.preconditioner(), |of_kind| {
         let of_blocks = block_triangle.clone().map_or(of_kind, |action| Box::new(action) as Box<dyn Action>);
-        let action = Bordered::new(of_blocks, block_triangle, border.clone(), form, session);
+        let action = Bordered::new(of_blocks, block_triangle, border.clone(), form);
         bordered = Some(action.clone());
         Ok(Box::new(action))
     })?;

@@ -5,7 +5,7 @@
 
 use super::options::{FACTOR, FIELD_SPLIT, Options, redundant_factor};
 use crate::discretisation::{Contact, SystemError};
-use crate::petsc::{Krylov, Session, options};
+use crate::petsc::{Krylov, options};
 use crate::system::saddle_point::SaddlePoint;
 
 /// Accuracy and length of the solve that shows the constant.
@@ -27,14 +27,14 @@ const OWN: Options = &[("-ksp_type", "gmres"), ("-fieldsplit_lambda_pc_type", "r
 ///
 /// # Errors
 /// PETSc's own.
-pub fn inf_sup(system: &SaddlePoint, contacts: &[Contact], session: &Session) -> Result<Vec<Option<f64>>, SystemError> {
+pub fn inf_sup(system: &SaddlePoint, contacts: &[Contact]) -> Result<Vec<Option<f64>>, SystemError> {
     // Where each rank makes the factor for itself, the constant has the same digits in each run.
-    for (name, value) in FIELD_SPLIT.iter().chain(OWN).chain(FACTOR).chain(redundant_factor(system, session)) {
-        options::set_default(session, &name.replacen('-', &format!("-{PREFIX}"), 1), value)?;
+    for (name, value) in FIELD_SPLIT.iter().chain(OWN).chain(FACTOR).chain(redundant_factor(system)) {
+        options::set_default(&system.session, &name.replacen('-', &format!("-{PREFIX}"), 1), value)?;
     }
-    let krylov = Krylov::new(session, PREFIX)?;
+    let krylov = Krylov::new(&system.session, PREFIX)?;
     krylov.keep_eigenvalues()?;
-    let stored = system.stored_nest(session)?;
+    let stored = system.stored_nest()?;
     let nest = stored.as_ref().unwrap_or(&system.nest);
     krylov.set_operators(nest, nest)?;
     let [u, lambda] = system.nest.nest_index_sets()?;

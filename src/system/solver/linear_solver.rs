@@ -9,14 +9,12 @@ use super::preconditioning::Preconditioning;
 use super::prepared::{Prepared, set_operators, set_plain_operators};
 use crate::discretisation::{Form, SystemError};
 use crate::multigrid::{Interpolation, LatticeOperator};
-use crate::petsc::Session;
 use crate::system::choice::SolverChoice;
 use crate::system::saddle_point::SaddlePoint;
 use std::rc::Rc;
 
 /// A solver of one system.
 pub struct LinearSolver {
-    pub(super) session: Session,
     form: Form,
     interpolations: Rc<[Interpolation]>,
     /// The rung that it stands on, and those to come.
@@ -37,17 +35,16 @@ impl LinearSolver {
         interpolations: &Rc<[Interpolation]>,
         choice: SolverChoice,
         preconditioning: Preconditioning,
-        session: &Session,
     ) -> Result<Self, SystemError> {
         let form = choice.form();
         let first = if interpolations.is_empty() { Preconditioning::Factor } else { preconditioning };
         let unknowns = system.finest_stiffness().operator().size().0;
         let rungs = match form {
-            Form::Augmented => ladder(first, unknowns, system.border.is_some(), chosen(session)),
+            Form::Augmented => ladder(first, unknowns, system.border.is_some(), chosen(&system.session)),
             Form::Plain => vec![DIRECT],
         };
-        let (session, interpolations) = (session.clone(), interpolations.clone());
-        let mut solver = Self { session, form, interpolations, rungs, prepared: None, name: String::new() };
+        let interpolations = interpolations.clone();
+        let mut solver = Self { form, interpolations, rungs, prepared: None, name: String::new() };
         solver.prepare(system)?;
         Ok(solver)
     }
@@ -64,9 +61,9 @@ impl LinearSolver {
         }
         if let Some((auxiliary, cycle)) = levels {
             auxiliary.refresh(system.stiffness[0].lattice());
-            cycle.borrow_mut().refresh(&self.session)?;
+            cycle.borrow_mut().refresh()?;
         }
-        set_operators(krylov, system, rung.preconditioning, &self.session)
+        set_operators(krylov, system, rung.preconditioning)
     }
 
     /// What the rung works with, set up if it is not. **Collective**
@@ -74,8 +71,8 @@ impl LinearSolver {
         let prepared = match self.prepared.take() {
             Some(prepared) => prepared,
             None => match self.form {
-                Form::Augmented => field_split(system, &self.interpolations, self.rung(), &self.session)?,
-                Form::Plain => direct(system, &self.session)?,
+                Form::Augmented => field_split(system, &self.interpolations, self.rung())?,
+                Form::Plain => direct(system)?,
             },
         };
         self.name.clone_from(&prepared.name);

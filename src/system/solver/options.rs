@@ -53,9 +53,9 @@ pub(super) const REDUNDANT_FACTOR: Options = &[
 ];
 
 /// Options by which every rank makes a factor for itself, where unknowns are few and ranks several; none elsewhere.
-pub(super) fn redundant_factor(system: &SaddlePoint, session: &Session) -> Options {
+pub(super) fn redundant_factor(system: &SaddlePoint) -> Options {
     let unknowns = system.finest_stiffness().operator().size().0;
-    if session.size() > 1 && unknowns <= MOST_REDUNDANT { REDUNDANT_FACTOR } else { &[] }
+    if system.session.size() > 1 && unknowns <= MOST_REDUNDANT { REDUNDANT_FACTOR } else { &[] }
 }
 
 /// The exact inverse of `S`, for each of its patterns.

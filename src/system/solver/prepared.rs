@@ -5,7 +5,7 @@ use super::bordered::Bordered;
 use super::preconditioning::Preconditioning;
 use crate::discretisation::SystemError;
 use crate::multigrid::{Cycle, GalerkinLevels};
-use crate::petsc::{Krylov, ReplacedAction, Session};
+use crate::petsc::{Krylov, ReplacedAction};
 use crate::system::saddle_point::SaddlePoint;
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -24,13 +24,8 @@ pub struct Prepared {
 }
 
 /// The product of the nest and the nest, or for a factor the one with all rows stored. **Collective**
-pub(super) fn set_operators(
-    krylov: &Krylov,
-    system: &SaddlePoint,
-    preconditioning: Preconditioning,
-    session: &Session,
-) -> Result<(), SystemError> {
-    let stored = if preconditioning == Preconditioning::Factor { system.stored_nest(session)? } else { None };
+pub(super) fn set_operators(krylov: &Krylov, system: &SaddlePoint, preconditioning: Preconditioning) -> Result<(), SystemError> {
+    let stored = if preconditioning == Preconditioning::Factor { system.stored_nest()? } else { None };
     match &stored {
         Some(nest) => krylov.set_operators(if system.border.is_some() { &system.product } else { nest }, nest)?,
         None => krylov.set_operators(&system.product, &system.nest)?,
