@@ -8,7 +8,7 @@ POWERS = [8, 9, 10]
 LEAST = 1000
 # Unknowns, by powers of ten, and ranks for which it is told where the time goes.
 TOLD = [(8, 1024), (8, 10_000), (9, 10_000)]
-# Unknowns of the largest level on one rank: SMALL in src/discretisation/level_ranks.rs.
+# Unknowns of the largest level on one rank: SMALL in src/discretisation/levels.rs.
 SMALL = 3000
 # Unknowns of a rank on larger levels that are brought together, at least: LEAST_ON_A_RANK there.
 LEAST_ON_A_RANK = 1000

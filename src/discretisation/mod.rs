@@ -20,7 +20,6 @@ mod field;
 mod forces;
 mod form;
 mod held_bodies;
-mod level_ranks;
 mod levels;
 mod motions;
 #[cfg(test)]
@@ -40,8 +39,7 @@ pub use field::Field;
 pub use forces::{SpringForces, internal_forces, load, local_strain_energy, nodal_forces};
 pub use form::Form;
 pub use held_bodies::{HeldBodies, held_motions, holds_of_bodies};
-pub use level_ranks::{SMALL, ranks_in_group};
-pub use levels::{Discretisation, WithoutContact, finest_numbering, node_count, spaces};
+pub use levels::{Discretisation, SMALL, WithoutContact, finest_numbering, node_count, ranks_in_group, spaces};
 pub use motions::{
     Freedom, HeldLoad, adrift, few_that_hold, forces_without_holds, free_motion_if_closed, needed_contacts, not_held,
     not_held_if_closed, rigid_motions, rigid_start, settle,

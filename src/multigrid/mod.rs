@@ -15,11 +15,11 @@ mod interpolation;
 mod sparse;
 mod stiffness;
 mod triangle_lattice;
-mod user_options;
 
 pub use auxiliary::GalerkinLevels;
 pub use cycle::{Border, Cycle, scaled_inverse};
 pub use interpolation::{Interpolation, interpolations};
 pub use sparse::{Sparse, add_multiple, dot};
-pub use stiffness::{BlockPlace, ContactNeighbours, Elastic, LatticeOperator, RowPlaces, Stiffness, SweepHalves};
-pub use user_options::takes_another_preconditioner;
+pub use stiffness::{
+    BlockPlace, ContactNeighbours, Elastic, LatticeOperator, RowPlaces, Stiffness, SweepHalves, takes_another_preconditioner,
+};

@@ -5,7 +5,7 @@ use super::lattice_operator::LatticeOperator;
 use super::{ContactNeighbours, SolverView, Stiffness};
 use crate::discretisation::{Discretisation, Form, SMALL, SystemError};
 use crate::geometry::Point;
-use crate::multigrid::user_options::takes_another_preconditioner;
+use crate::petsc::{Session, options};
 
 /// Stiffness and load of the bodies.
 pub struct Elastic {
@@ -68,6 +68,11 @@ fn seen(problem: &Discretisation, is_finest: bool, form: Form) -> SolverView {
     let is_alone = problem.spaces.len() == 1 && 2 * problem.finest().numbering.node_count() <= SMALL;
     let are_wanted = form == Form::Plain || is_finest && (is_alone || takes_another_preconditioner(&problem.session));
     if are_wanted { SolverView::Entries } else { SolverView::Action }
+}
+
+/// Whether the user has chosen what preconditions the displacements: then it is a preconditioner of PETSc's, which wants all rows.
+pub fn takes_another_preconditioner(session: &Session) -> bool {
+    options::any_of_user(session, |name| name == "-fieldsplit_u_pc_type")
 }
 
 fn first_level(problem: &Discretisation, form: Form) -> usize {

@@ -63,7 +63,7 @@
 //! where no option of the user's begins with `-pc_` or `-fieldsplit_`, its function is replaced by one that does the same
 //! without copies (`system/solver/block_triangle.rs`, `petsc::ReplacedAction`; it needs PETSc's `private/pcimpl.h`, which PETSc
 //! installs), while its kind, parts and set-up stay. Levels of up to 3000 unknowns are on one rank, larger ones on one of every
-//! 2, 4, 8, … ranks, so that each of these has about a thousand unknowns or more (`discretisation/level_ranks.rs`); the finest stays on all.
+//! 2, 4, 8, … ranks, so that each of these has about a thousand unknowns or more (`discretisation/levels.rs`); the finest stays on all.
 //! From the first level on one rank downwards nothing is sent, and that rank solves the coarsest with a factor
 //! (`cycle/coarsest.rs`). Where the macro mesh is larger, auxiliary levels follow below it, with stored rows like its own. All messages go from neighbour to neighbour, and are under way while even macro triangles, or the first sides of a
 //! sweep, are worked on. The product of the saddle point is a shell, too (`nest_product`): PETSc's nest finds the parts of its
@@ -100,7 +100,7 @@ mod sweep_order;
 mod sweep_rows;
 mod triangle_kernel;
 
-pub use elastic::Elastic;
+pub use elastic::{Elastic, takes_another_preconditioner};
 pub use lattice_operator::LatticeOperator;
 pub use stored_rows::{BlockPlace, Part, StoredRows};
 pub use sweep_order::SweepHalves;
