@@ -26,6 +26,10 @@ const STAYS: f64 = 0.75;
 /// An end of Γ_C lies at the end of a body if less than this share of an edge is between them.
 const AT_THE_END: f64 = 1e-2;
 
+/// What the secant makes of a finding at most: of an end that is found as far off as before, beyond a segment that does not tell how far
+/// contact goes on, too. A head that presses on a flange from its one edge to the other had its end a twentieth farther with each fit.
+const MOST_STRETCH: f64 = 4.0;
+
 /// Error of an end by the segment beside it, as a share of that segment's length.
 pub const OF_A_SEGMENT: f64 = 0.025;
 
@@ -70,7 +74,12 @@ pub fn free_ends(pressure: &ContactPressure, history: &mut [FoundEnd; 2], least:
         let step = match history[k] {
             Some((before, was)) if now[k] != before => {
                 let slope = (off - was) / (now[k] - before);
-                if (-4.0..-0.25).contains(&slope) { -off / slope } else { off }
+                let creeps = off * (now[k] - before) > 0.0 && slope >= -1.0 / MOST_STRETCH;
+                match slope {
+                    _ if creeps => MOST_STRETCH * off,
+                    -4.0..-0.25 => -off / slope,
+                    _ => off,
+                }
             }
             _ => off,
         };

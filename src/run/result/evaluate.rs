@@ -12,7 +12,7 @@ use crate::run::telling::progress;
 use crate::run::verdict::exact::compare;
 use crate::run::verdict::no_result::{NO_NUMBERS, no_result};
 use crate::run::verdict::trust;
-use crate::run::verdict::unresolved::{pressed_by_rounding, unresolved};
+use crate::run::verdict::unresolved::{pressed_by_rounding, pulled, unresolved};
 use crate::run::verdict::warnings::after::{apart, large_strains, loaded_points, slivers};
 use crate::run::verdict::warnings::before::{IDLE, TO_DRIVE};
 use crate::run::{Run, accuracy};
@@ -128,11 +128,17 @@ impl Run<'_> {
     }
 }
 
-/// Words for a body that is held by contacts alone on which rounding presses, and that nothing drives. **Collective**
+/// Words for a body that is held by contacts alone on which rounding presses, or of which nothing but a pull was found, and that nothing
+/// drives. **Collective**
 fn adrift(run: &Run, summary: &Summary, solved: &Solved) -> Option<String> {
-    let names = pressed_by_rounding(summary, run.case);
-    let words = solved.adrift_without(&names)?;
-    Some(format!("contact {}: what presses is rounding, so that where its bodies lie is not told: {words}", names.first()?))
+    let pressed = pressed_by_rounding(summary, run.case);
+    let pulled = if solved.violates_contact() { pulled(summary, run.case) } else { Vec::new() };
+    let told = |(names, words): (Vec<String>, &str)| {
+        Some(format!("contact {}: {words}: {}", names.first()?, solved.adrift_without(&names)?))
+    };
+    let all =
+        [(pressed, "what presses is rounding, so that where its bodies lie is not told"), (pulled, "nothing presses on it")];
+    all.into_iter().find_map(told)
 }
 
 /// How the procedure ended: the status, and its words.

@@ -84,6 +84,15 @@ pub fn pressed_by_rounding(summary: &Summary, case: &Case) -> Vec<String> {
     pressed.map(|(name, _)| name.into()).collect()
 }
 
+/// Contacts that can but press, and whose multipliers were left to pull in all.
+pub fn pulled(summary: &Summary, case: &Case) -> Vec<String> {
+    let is_pulled = |pair: &&Pair| {
+        let force = summary.contact.get(&pair.name).and_then(|contact| contact.force);
+        pair.law == Law::Unilateral && force.is_some_and(|force| force < 0.0)
+    };
+    case.contacts.iter().filter(is_pulled).map(|pair| pair.name.clone()).collect()
+}
+
 /// Bodies that lie in each other within segments which are longer than the contact.
 fn within_segments(judged: &Judged) -> Option<String> {
     let (name, _) = judged.contacts().find(|(_, contact)| judged.is_missed(contact))?;
