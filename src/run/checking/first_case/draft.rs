@@ -5,7 +5,6 @@ use super::named_curve::{LOADED, NamedCurve, PULLED};
 use crate::contact::ClosePair;
 use crate::run::checking::node_circle::NodeCircle;
 use crate::run::checking::proposals::{MeanProposal, TableNames, contact_table, digits, key, quoted, short};
-use std::fmt::Write;
 use std::path::Path;
 
 /// Boundaries that are named in comments at most.
@@ -28,21 +27,11 @@ pub struct Draft<'a> {
 
 impl Draft<'_> {
     pub fn text(&self, named: &str, press: Press) -> String {
-        let mut text = String::new();
-        let mut tables = TableNames::default();
-        self.head(&mut text, named);
         let weights = if press == Press::Nothing { Vec::new() } else { self.guesses.weights() };
-        self.bodies(&mut text, &weights);
-        self.circles(&mut text);
-        self.contacts(&mut text);
-        self.tools(&mut text);
-        self.supports(&mut text, &mut tables);
-        if weights.is_empty() || self.guesses.pressed().is_some() {
-            self.load(&mut text, press);
-        }
-        self.wanted_names(&mut text);
-        self.rest(&mut text);
-        text
+        let is_loaded = weights.is_empty() || self.guesses.pressed().is_some();
+        let load = if is_loaded { self.load(press) } else { String::new() };
+        let drawn = [self.head(named), self.bodies(&weights), self.circles(), self.contacts(), self.tools()];
+        drawn.concat() + &[self.supports(), load, self.wanted_names(), self.rest()].concat()
     }
 
     /// What keeps the case from being one, a sentence each.
@@ -72,160 +61,110 @@ impl Draft<'_> {
         Some(format!("the contact that would carry a load of {} is left out", quoted(&self.guesses.mesh.bodies[body])))
     }
 
-    fn head(&self, text: &mut String, named: &str) {
+    fn head(&self, named: &str) -> String {
         let title = Path::new(named).file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let _ = write!(
-            text,
-            "#:schema case.schema.json
-
-# A first case, made from the mesh by `mezha new`. Numbers marked as examples are examples: put yours in their place.
-# `mezha check` draws the case and says what would be solved, `mezha run` solves it.
-# `mezha schema > case.schema.json` beside this file lets editors that read the first line (Taplo) complete and explain keys.
-# Units are your own, consistent ones: with mm and N, stresses are in MPa, and forces in N for each mm of thickness.
-title = {}
-units = {{ length = \"mm\", force = \"N\" }}   # names alone: they change no number
-{}
-[mesh]
-file = {}          # found from the folder of this file
-order = 2
-",
-            quoted(&title),
-            if self.guesses.may_be_round() { ROUND } else { "" },
-            quoted(named),
-        );
+        let round = if self.guesses.may_be_round() { ROUND } else { "" };
         let accuracy = match self.guesses.pairs.is_empty() && self.guesses.tools.is_empty() {
             true => "energy = 0.02            # the mesh is adapted until the energy norm is good to 2 %",
             false => "pressure = 0.01          # the mesh is adapted until the contact pressure is good to 1 %",
         };
         // The first mesh cuts each triangle into sixteen, which have some four unknowns each with P2.
         let most = MOST_UNKNOWNS.max(ROOM * 4 * 16 * self.guesses.mesh.triangles.len());
-        let _ = write!(text, "\n[accuracy]\n{accuracy}\nmax_unknowns = {most}\n");
+        let (title, file) = (quoted(&title), quoted(named));
+        format!(include_str!("head.txt"), title = title, round = round, file = file, accuracy = accuracy, most = most)
     }
 
-    fn bodies(&self, text: &mut String, weights: &[Weight]) {
+    fn bodies(&self, weights: &[Weight]) -> String {
+        let mut text = String::new();
         for (group, name) in self.groups.iter().zip(self.names) {
-            let mut material =
-                format!("young = {YOUNG:?}         # example: steel, in MPa\npoisson = {POISSON:?}            # example\n");
-            if let Some(weight) = weights.iter().find(|weight| self.guesses.mesh.bodies[weight.body] == *name) {
-                let words = "# example: presses the body down, force for each volume";
-                let _ = writeln!(material, "body_force = [0.0, {:?}]    {words}", -weight.force);
-            }
+            let weight = weights.iter().find(|weight| self.guesses.mesh.bodies[weight.body] == *name);
+            let words = "# example: presses the body down, force for each volume";
+            let force = weight.map_or(String::new(), |weight| format!("body_force = [0.0, {:?}]    {words}\n", -weight.force));
+            let material = format!(
+                "young = {YOUNG:?}         # example: steel, in MPa\npoisson = {POISSON:?}            # example\n{force}"
+            );
             match &group[..] {
-                [only] => {
-                    let _ = write!(text, "\n[body.{}]\n{material}", key(only));
-                }
+                [only] => text += &format!("\n[body.{}]\n{material}", key(only)),
                 parts => {
-                    let _ = write!(text, "\n# These surfaces share nodes: they are parts of one body, bonded to each other.\n");
-                    for part in parts {
-                        let _ = write!(text, "[body.{}.part.{}]\n{material}", key(name), key(part));
-                    }
+                    let part = |part: &String| format!("[body.{}.part.{}]\n{material}", key(name), key(part));
+                    text += "\n# These surfaces share nodes: they are parts of one body, bonded to each other.\n";
+                    text.extend(parts.iter().map(part));
                 }
             }
         }
+        text
     }
 
     /// The true shape of boundaries in contact that are drawn as polygons, where their nodes tell it.
-    fn circles(&self, text: &mut String) {
+    fn circles(&self) -> String {
         let mut tables = TableNames::default();
-        for curve in self.guesses.curves.iter().filter(|curve| curve.is_touched) {
-            let Some(NodeCircle { centre, radius, .. }) = curve.circle else { continue };
+        let circle = |curve: &NamedCurve| {
+            let NodeCircle { centre, radius } = curve.circle?;
             let [x, y, radius] = [centre.x, centre.y, radius].map(|part| digits(part, radius));
             let (name, own) = (tables.fresh(curve.name), quoted(curve.name));
             let why = "its nodes lie on this circle; leave this out if it is meant with straight sides";
-            let _ = write!(text, "\n[geometry.{name}]       # {why}\ncurves = {own}\n");
-            let _ = writeln!(text, "circle = {{ centre = [{x:?}, {y:?}], radius = {radius:?} }}");
-        }
+            let circle = format!("circle = {{ centre = [{x:?}, {y:?}], radius = {radius:?} }}");
+            Some(format!("\n[geometry.{name}]       # {why}\ncurves = {own}\n{circle}\n"))
+        };
+        self.guesses.curves.iter().filter(|curve| curve.is_touched).filter_map(circle).collect()
     }
 
-    fn contacts(&self, text: &mut String) {
-        let mut tables = TableNames::default();
+    fn contacts(&self) -> String {
+        let (mut text, mut tables) = (String::new(), TableNames::default());
         let has_any = !self.guesses.pairs.is_empty() || !self.guesses.tools.is_empty();
         if self.guesses.mesh.bodies.len() > 1 && !has_any && self.guesses.refused.is_empty() {
-            *text += "\n# No named boundaries of two bodies lie close and face each other. What may touch is written so:\n";
-            *text += "# [contact.NAME]\n# between = [\"boundary of body 1\", \"boundary of body 2\"]\n";
+            text += "\n# No named boundaries of two bodies lie close and face each other. What may touch is written so:\n";
+            text += "# [contact.NAME]\n# between = [\"boundary of body 1\", \"boundary of body 2\"]\n";
         }
         for pair in &self.guesses.pairs {
-            let _ = write!(text, "\n{}", contact_table(pair, &mut tables));
+            text += &format!("\n{}", contact_table(pair, &mut tables));
         }
         for (pair, why) in &self.guesses.refused {
-            let _ = write!(text, "\n# Left out, since `mezha check` refuses it:\n#   {why}\n");
-            contact_table(pair, &mut tables).lines().for_each(|line| *text += &format!("# {line}\n"));
+            let table = commented(&contact_table(pair, &mut tables));
+            text += &format!("\n# Left out, since `mezha check` refuses it:\n#   {why}\n{table}");
         }
+        text
     }
 
     /// The rigid tools that are drawn in the mesh. What may press on a body that is alone without them: one above the boundary that is
     /// pressed, as a comment.
-    fn tools(&self, text: &mut String) {
-        for words in &self.guesses.aside {
-            let _ = write!(text, "\n# Left out: {words}\n");
-        }
+    fn tools(&self) -> String {
+        let aside: String = self.guesses.aside.iter().map(|words| format!("\n# Left out: {words}\n")).collect();
         if !self.guesses.tools.is_empty() {
-            *text += "\n# Curves of the mesh that bound no body are taken for rigid tools.\n";
             let tables: Vec<&str> = self.guesses.tools.iter().map(|tool| tool.text.as_str()).collect();
-            *text += &tables.join("\n");
-            return;
+            return aside + "\n# Curves of the mesh that bound no body are taken for rigid tools.\n" + &tables.join("\n");
         }
         let is_below = |curve: &&NamedCurve| curve.normal.y > 0.0 && curve.high.x > curve.low.x && !curve.has(PULLED);
         let pressed = self.guesses.pressed().filter(is_below).filter(|_| self.guesses.mesh.bodies.len() == 1);
-        let Some(curve) = pressed else { return };
+        let Some(curve) = pressed else { return aside };
         let [left, right, high] = [curve.low.x, curve.high.x, curve.high.y].map(|x| digits(x, curve.length));
-        let _ = write!(
-            text,
-            "
-# A rigid tool, which needs no mesh, may press on the body instead of a load:
-# [rigid.tool]
-# line = [[{left:?}, {high:?}], [{right:?}, {high:?}]]   # or circle = {{ centre = [x, y], radius = r }}
-# ux = 0.0
-# uy = {:?}                # example: how far it is moved; or force = [0.0, -1.0]
-# angle = 0.0
-# [contact.tool]
-# between = [{}, \"rigid.tool\"]
-",
-            -self.guesses.tool_way(),
-            quoted(curve.name)
-        );
+        let (way, name) = (-self.guesses.tool_way(), quoted(curve.name));
+        aside + &format!(include_str!("tool.txt"), left = left, right = right, high = high, way = way, name = name)
     }
 
-    fn supports(&self, text: &mut String, tables: &mut TableNames) {
-        for curve in self.guesses.curves.iter().filter(|curve| curve.is_mirrored() && !curve.is_touched) {
+    fn supports(&self) -> String {
+        let mut tables = TableNames::default();
+        let mirrored = self.guesses.curves.iter().filter(|curve| curve.is_mirrored() && !curve.is_touched);
+        let mirrored = mirrored.map(|curve| (curve, "a line of symmetry, by its name", "normal = 0.0\n"));
+        let held = self.guesses.held().into_iter().map(|curve| match curve.is_held() {
+            true => (curve, "held: by its name", "ux = 0.0\nuy = 0.0\n"),
+            false => (curve, "held: the lowest boundary that looks down", "ux = 0.0\nuy = 0.0\n"),
+        });
+        let support = |(curve, why, keys): (&NamedCurve, &str, &str)| {
             let (name, own) = (tables.fresh(curve.name), quoted(curve.name));
-            let _ = write!(text, "\n[support.{name}]       # a line of symmetry, by its name\non = {own}\nnormal = 0.0\n");
-        }
-        for curve in self.guesses.held() {
-            let why = if curve.is_held() { "by its name" } else { "the lowest boundary that looks down" };
-            let (name, own) = (tables.fresh(curve.name), quoted(curve.name));
-            let _ = write!(text, "\n[support.{name}]       # held: {why}\non = {own}\nux = 0.0\nuy = 0.0\n");
-        }
-        if let Some((body, motions)) = self.guesses.foundation() {
-            *text += "\n# No named boundary looks like one that is held, so the mean motion of the lowest body is. That carries the load all over\n# the body; where it stands on something, name that line in the mesh, hold it, and leave this out.\n";
-            let body = &self.guesses.mesh.bodies[body];
-            let hold = MeanProposal { name: tables.fresh(&format!("{body}-still")), body: body.clone(), moves: motions };
-            *text += &hold.table("");
-        }
+            format!("\n[support.{name}]       # {why}\non = {own}\n{keys}")
+        };
+        let text: String = mirrored.chain(held).map(support).collect();
+        let Some((body, moves)) = self.guesses.foundation() else { return text };
+        let words = "\n# No named boundary looks like one that is held, so the mean motion of the lowest body is. That carries the load all over\n# the body; where it stands on something, name that line in the mesh, hold it, and leave this out.\n";
+        let body = self.guesses.mesh.bodies[body].clone();
+        text + words + &MeanProposal { name: tables.fresh(&format!("{body}-still")), body, moves }.table("")
     }
 
-    fn load(&self, text: &mut String, press: Press) {
-        let (is_pressed_in, pressed) = (self.guesses.is_pressed_in(), self.guesses.pressed());
-        let has_tools = !self.guesses.tools.is_empty();
-        let Some(curve) = pressed.filter(|_| press != Press::Nothing && !is_pressed_in && !has_tools) else {
-            let on = pressed.map_or("boundary", |curve| curve.name);
-            *text += &match (is_pressed_in, pressed) {
-                _ if has_tools => "\n# The rigid tools press. A further load is written so:\n".into(),
-                (true, _) => {
-                    "\n# Bodies are drawn into each other: that interference is the load. A further one is written so:\n".into()
-                }
-                (_, Some(curve)) => format!(
-                    "\n# Nothing presses yet: `mezha check` refuses a load on {}, as the bodies are held here. A load is written so:\n",
-                    quoted(curve.name)
-                ),
-                (_, None) => {
-                    let why = self.no_load().map_or(String::new(), |why| format!(": {why}"));
-                    format!("\n# Nothing presses yet{why}. A load is written so:\n")
-                }
-            };
-            let table = format!("# [load.NAME]\n# on = {}\n# pressure = 1.0\n", quoted(on));
-            *text += &(table + "# or, all over a body, as a line of its table:\n# body_force = [0.0, -1.0]\n");
-            return;
+    fn load(&self, press: Press) -> String {
+        let is_pressed_in = self.guesses.is_pressed_in() || !self.guesses.tools.is_empty();
+        let Some(curve) = self.guesses.pressed().filter(|_| press != Press::Nothing && !is_pressed_in) else {
+            return self.further_load();
         };
         let direction = self.guesses.push(curve);
         let guided = if direction.x == 0.0 { "ux" } else { "uy" };
@@ -237,45 +176,52 @@ order = 2
             _ if curve.is_held() => "its name says that it is held, but then nothing would act",
             _ => "the highest boundary that looks up",
         };
-        let mut tables = TableNames::default();
-        let _ = write!(text, "\n[load.{}]          # {what}: {why}\non = {}\n", tables.fresh(curve.name), quoted(curve.name));
+        let (table, on) = (TableNames::default().fresh(curve.name), quoted(curve.name));
+        let head = format!("\n[load.{table}]          # {what}: {why}\non = {on}\n");
         // A plate on a body of revolution moves along the axis alone.
         if press == Press::Pressure || direction.x != 0.0 && self.guesses.may_be_round() {
             let pressure = sense * self.guesses.pressure(curve);
-            let _ = writeln!(text, "pressure = {pressure:?}       # example: pushes onto the body if it is positive");
-            return;
+            return head + &format!("pressure = {pressure:?}       # example: pushes onto the body if it is positive\n");
         }
         let [x, y] = (sense * self.guesses.force(curve) * direction).map(|part| if part == 0.0 { 0.0 } else { part }).into();
-        let _ = write!(
-            text,
-            "rigid = true              # a stiff plate that is bonded to it carries the force; or leave these lines, and give pressure = ...
-force = [{x:?}, {y:?}]     # example: force for each length of thickness
-{guided} = 0.0                  # the plate is guided,
-angle = 0.0               # and does not turn
-"
-        );
+        head + &format!(include_str!("plate.txt"), x = x, y = y, guided = guided)
+    }
+
+    /// How a load is written, as a comment, and why there is none.
+    fn further_load(&self) -> String {
+        let pressed = self.guesses.pressed().map(|curve| quoted(curve.name));
+        let why = match &pressed {
+            _ if !self.guesses.tools.is_empty() => "The rigid tools press. A further load is written so:".into(),
+            _ if self.guesses.is_pressed_in() => {
+                "Bodies are drawn into each other: that interference is the load. A further one is written so:".into()
+            }
+            Some(on) => format!(
+                "Nothing presses yet: `mezha check` refuses a load on {on}, as the bodies are held here. A load is written so:"
+            ),
+            None => {
+                let why = self.no_load().map_or(String::new(), |why| format!(": {why}"));
+                format!("Nothing presses yet{why}. A load is written so:")
+            }
+        };
+        let table = format!("# [load.NAME]\n# on = {}\n# pressure = 1.0\n", pressed.unwrap_or(quoted("boundary")));
+        format!("\n# {why}\n{table}# or, all over a body, as a line of its table:\n# body_force = [0.0, -1.0]\n")
     }
 
     /// Names that the mesh wants, as lines of the .geo file.
-    fn wanted_names(&self, text: &mut String) {
+    fn wanted_names(&self) -> String {
         let Guesses { mesh, curves, unnamed, .. } = &self.guesses;
         if !curves.is_empty() && unnamed.is_empty() {
-            return;
+            return String::new();
         }
-        *text += "\n# Contact, supports and loads stand on named curves, and the mesh has too few. Write such lines into the .geo file, with\n# the numbers of its curves, mesh it again, and make this case anew:\n";
-        let mut line = |name: &str, words: &str| {
-            let _ = writeln!(text, "#   Physical Curve({}) = {{...}};   // {words}", quoted(name));
-        };
-        for &[a, b] in unnamed {
-            for (own, other) in [(a, b), (b, a)] {
-                let [own, other] = [own, other].map(|body| &mesh.bodies[body]);
-                line(&format!("{own}.{other}"), &format!("where \"{own}\" may touch \"{other}\", which lies close"));
-            }
-        }
-        if curves.is_empty() {
-            line("bottom", "what is held");
-            line("top", "what is pressed, on another body");
-        }
+        let head = "\n# Contact, supports and loads stand on named curves, and the mesh has too few. Write such lines into the .geo file, with\n# the numbers of its curves, mesh it again, and make this case anew:\n";
+        let line = |(name, words): (String, String)| format!("#   Physical Curve({}) = {{...}};   // {words}\n", quoted(&name));
+        let close = unnamed.iter().flat_map(|&[a, b]| [(a, b), (b, a)]).map(|(own, other)| {
+            let [own, other] = [own, other].map(|body| &mesh.bodies[body]);
+            (format!("{own}.{other}"), format!("where \"{own}\" may touch \"{other}\", which lies close"))
+        });
+        let usual = [("bottom", "what is held"), ("top", "what is pressed, on another body")];
+        let usual = usual.map(|(name, words)| (name.into(), words.into())).into_iter().filter(|_| curves.is_empty());
+        head.to_owned() + &close.chain(usual).map(line).collect::<String>()
     }
 
     /// The supports that are proposed for what nothing else holds; those of bodies whose contacts are left out are comments. Returns
@@ -290,9 +236,8 @@ angle = 0.0               # and does not turn
             *text += &others.iter().map(|table| table.as_str()).collect::<Vec<_>>().join("\n");
         }
         for table in &unheld {
-            let body = body_of(table)?;
-            let _ = write!(text, "\n# Body {body} has neither contact nor support. This would hold it:\n");
-            table.lines().for_each(|line| *text += &format!("# {line}\n"));
+            let (body, table) = (body_of(table)?, commented(table));
+            *text += &format!("\n# Body {body} has neither contact nor support. This would hold it:\n{table}");
         }
         let body = body_of(unheld.first()?)?;
         let remedy = "mend the contact that is left out, or hold the body: the last lines tell how";
@@ -300,20 +245,25 @@ angle = 0.0               # and does not turn
     }
 
     /// All named boundaries, for whoever goes on writing.
-    fn rest(&self, text: &mut String) {
+    fn rest(&self) -> String {
         let curves = &self.guesses.curves;
         if curves.is_empty() {
-            return;
+            return String::new();
         }
-        *text += "\n# Boundaries of the mesh, for on = and between =:\n";
-        for curve in curves.iter().take(MOST_NAMED) {
+        let line = |curve: &NamedCurve| {
             let (name, body) = (quoted(curve.name), quoted(&self.guesses.mesh.bodies[curve.body]));
             let sizes = [curve.length, curve.low.x, curve.high.x, curve.low.y, curve.high.y];
             let [length, left, right, low, high] = sizes.map(|size| short(digits(size, curve.length)));
-            let _ = writeln!(text, "#   {name}: of {body}, length {length}, x from {left} to {right}, y from {low} to {high}");
-        }
-        if curves.len() > MOST_NAMED {
-            let _ = writeln!(text, "#   and {} more", curves.len() - MOST_NAMED);
-        }
+            format!("#   {name}: of {body}, length {length}, x from {left} to {right}, y from {low} to {high}\n")
+        };
+        let lines: String = curves.iter().take(MOST_NAMED).map(line).collect();
+        let more = curves.len().saturating_sub(MOST_NAMED);
+        let more = if more > 0 { format!("#   and {more} more\n") } else { String::new() };
+        format!("\n# Boundaries of the mesh, for on = and between =:\n{lines}{more}")
     }
+}
+
+/// Lines as comments.
+fn commented(lines: &str) -> String {
+    lines.lines().map(|line| format!("# {line}\n")).collect()
 }
