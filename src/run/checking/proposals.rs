@@ -2,8 +2,8 @@
 
 use crate::case::Case;
 use crate::case::error::dotted;
-use crate::contact::{ClosePair, Extent, Mechanism, close_pairs, drawn_gap};
-use crate::discretisation;
+use crate::contact::{ClosePair, Mechanism, close_pairs, drawn_gap};
+use crate::discretisation::{self, Scene};
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{Level, MacroMesh, Numbering, Partition, Spot};
@@ -235,20 +235,13 @@ fn next_support(case: &Case, proposed: &[Proposed], names: &mut TableNames) -> O
     // As `check` looks at it: contacts that are found on the first refined mesh may not be found on that of the file.
     let scene = scene::first(case, mesh).ok()?;
     let motion = Procedure::look(&scene, 0).and_then(|at_rest| at_rest.free_motion(&scene)).ok()??;
-    let extent = scene.extents()[motion.piece];
-    support_for(case, &scene.mesh, &motion, extent, proposed, names)
+    support_for(case, &scene, &motion, proposed, names)
 }
 
 /// A support that holds one free motion: of a whole body by its mean, where nothing else holds it, and else of a point, on a
 /// boundary that is in no contact if there is one.
-fn support_for(
-    case: &Case,
-    mesh: &MacroMesh,
-    motion: &Mechanism,
-    extent: Extent,
-    proposed: &[Proposed],
-    names: &mut TableNames,
-) -> Option<Proposed> {
+fn support_for(case: &Case, scene: &Scene, motion: &Mechanism, own: &[Proposed], names: &mut TableNames) -> Option<Proposed> {
+    let (mesh, extent) = (&scene.mesh, scene.extents()[motion.piece]);
     let body = mesh.pieces[motion.piece].body;
     let name = &mesh.bodies[body];
     let boundary_piece = |name: &String| {
@@ -256,7 +249,7 @@ fn support_for(
         edge.map(|&edge| mesh.piece_beside(edge))
     };
     let holds = |on: &[String]| on.iter().any(|name| boundary_piece(name) == Some(motion.piece));
-    let is_ours = |body: &String| proposed.iter().any(|own| matches!(own, Proposed::Mean(own) if own.body == *body));
+    let is_ours = |body: &String| own.iter().any(|own| matches!(own, Proposed::Mean(own) if own.body == *body));
     let is_held = case.supports.iter().any(|support| holds(&support.on) || support.at.is_some())
         || case.springs.iter().any(|springs| holds(&springs.on))
         || case.plates.iter().any(|plate| holds(&plate.on))
