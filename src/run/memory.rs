@@ -18,8 +18,8 @@ type Read<'a> = &'a dyn Fn(&Path) -> Option<String>;
 /// Bytes that all ranks together may still take. Ranks of one machine share what it has left; every rank gets as much as the
 /// one that can have least. **Collective**
 pub fn left(session: &Session) -> f64 {
-    let left = Left::now(session);
-    let [least] = session.max([-left.of_machine.min(left.of_process)]);
+    let [of_machine, of_process] = left_here(session.ranks_here());
+    let [least] = session.max([-of_machine.min(of_process)]);
     -least * session.size() as f64
 }
 
@@ -33,19 +33,26 @@ pub fn refuse_too_large<E: Into<RunError>>(
     need: impl Fn(usize) -> Result<(usize, f64), E>,
     session: &Session,
 ) -> Result<(), RunError> {
-    let left = Left::now(session);
-    let taken = |refine: usize| need(refine).map(|(unknowns, bytes)| (unknowns, left.taken(bytes, session)));
-    let (unknowns, whole) = taken(refine).map_err(E::into)?;
-    keep_forecast(whole.need);
-    if whole.share <= 1.0 {
+    let [of_machine, of_process] = left_here(session.ranks_here());
+    // Unknowns, the bytes of all ranks together, and these as a share of what is left, where that is shortest.
+    let taken = |refine: usize| {
+        let (unknowns, bytes) = need(refine)?;
+        let [whole] = session.sum([bytes]);
+        let mean = whole / session.size() as f64;
+        let [share] = session.max([(mean / of_machine).max(bytes / of_process)]);
+        Ok::<_, E>((unknowns, whole, share))
+    };
+    let (unknowns, whole, share) = taken(refine).map_err(E::into)?;
+    keep_forecast(whole);
+    if share <= 1.0 {
         return Ok(());
     }
-    let coarser = (0..refine).rev().filter_map(|refine| Some((refine, taken(refine).ok()?.1)));
-    let remedy = match coarser.into_iter().find(|(_, taken)| taken.share <= 1.0) {
-        Some((refine, taken)) => format!("mesh.refine = {refine} fits, with {}", size(taken.need)),
+    let mut coarser = (0..refine).rev().filter_map(|refine| Some((refine, taken(refine).ok()?)));
+    let remedy = match coarser.find(|(_, (.., share))| *share <= 1.0) {
+        Some((refine, (_, whole, _))) => format!("mesh.refine = {refine} fits, with {}", size(whole)),
         None => "no refinement of this mesh fits; take a coarser mesh, or a machine with more memory".into(),
     };
-    let [need, left] = [whole.need, whole.need / whole.share].map(size);
+    let [need, left] = [whole, whole / share].map(size);
     Err(RunError::Key(format!(
         "mesh.refine = {refine}: {unknowns} unknowns take some {need} of memory, and {left} are left; {remedy}"
     )))
@@ -54,43 +61,19 @@ pub fn refuse_too_large<E: Into<RunError>>(
 /// What a run takes on one rank of this machine, and what each further rank adds; with it a warning if that is not left here.
 /// `need` is that of a scene on one rank, and that of its macro mesh.
 pub fn told(need: f64, of_macro_mesh: f64) -> (String, Option<String>) {
-    let read: Read = &|path| std::fs::read_to_string(path).ok();
-    let left = of_machine(read).min(of_process(read));
+    let [of_machine, of_process] = left_here(1);
+    let left = of_machine.min(of_process);
     let [whole, more, there] = [need + BY_PROCESS, of_macro_mesh + BY_PROCESS, left].map(size);
     let words = format!("memory: some {whole} on one rank, and {more} more for each further one");
     let warning = format!("a run takes some {whole} of memory, and {there} are left on this machine: it would be refused here");
     (words, (need > left).then_some(warning))
 }
 
-/// Bytes that this rank may still take.
-struct Left {
-    /// Its share of what the machine has left. Others of the machine may take less than theirs.
-    of_machine: f64,
-    of_process: f64,
-}
-
-/// What all ranks take together.
-struct Taken {
-    /// Bytes.
-    need: f64,
-    /// As a share of what is left, where that is shortest.
-    share: f64,
-}
-
-impl Left {
-    /// **Collective**
-    fn now(session: &Session) -> Self {
-        let read: Read = &|path| std::fs::read_to_string(path).ok();
-        Self { of_machine: of_machine(read) / session.ranks_here() as f64, of_process: of_process(read) }
-    }
-
-    /// What it means that this rank is to take so many bytes, and the others what they say. **Collective**
-    fn taken(&self, bytes: f64, session: &Session) -> Taken {
-        let [need] = session.sum([bytes]);
-        let mean = need / session.size() as f64;
-        let [share] = session.max([(mean / self.of_machine).max(bytes / self.of_process)]);
-        Taken { need, share }
-    }
+/// Bytes that this rank may still take: its share of what the machine has left for so many ranks, of which others may take less
+/// than theirs, and what its process may take.
+fn left_here(ranks: usize) -> [f64; 2] {
+    let read: Read = &|path| std::fs::read_to_string(path).ok();
+    [of_machine(read) / ranks as f64, of_process(read)]
 }
 
 /// What is left of the machine, or of the control groups that this process is in.
