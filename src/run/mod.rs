@@ -108,12 +108,12 @@ fn start(case: &Case, options: &RunOptions, session: &Session) -> Result<Status,
     let origin = ResultOrigin::new(case, session);
     let files = claim_folder(case, options, &origin, session)?;
     progress::begin(options.progress, session.rank() == 0, options.quiet, options.started);
-    let report = Report::new(case, options, session);
+    let (report, origin) = (Report::new(case, options, session), Arc::new(origin));
     let stages = Rc::new(Stages::new(session)?);
     report.start(case);
     verdict::warnings::before::far_turns(case).iter().for_each(|words| report.warn(words));
-    let (scene, origin) = read_scene(case, options, origin, &stages, &report, session)?;
-    let run = Run { case, options, session, stages, report, files, origin, draws: true, true_errors: RefCell::default() };
+    let mut run = Run { case, options, session, stages, report, files, origin, draws: true, true_errors: RefCell::default() };
+    let scene = run.read_scene()?;
     if !case.steps.is_empty() {
         return run.finish(run.solve_steps(&scene)?, &scene.mesh);
     }
@@ -148,26 +148,22 @@ struct Run<'a> {
     true_errors: RefCell<Vec<Vec<Option<f64>>>>,
 }
 
-/// Reads the mesh and spreads it. A case that lies beside its own result is told to repeat it, and must have its mesh. **Collective**
-fn read_scene(
-    case: &Case,
-    options: &RunOptions,
-    origin: ResultOrigin,
-    stages: &Stages,
-    report: &Report,
-    session: &Session,
-) -> Result<(Scene, Arc<ResultOrigin>), RunError> {
-    let _stage = stages.mesh.enter();
-    let bytes = reading::input::share_mesh(case, options.inputs.as_ref(), session)?;
-    let origin = if session.rank() == 0 { origin.with_mesh(case, bytes.clone(), &options.out) } else { origin };
-    let before = if session.rank() == 0 { origin::result_before(case, &bytes) } else { Ok(None) };
-    let before = session.agree(before).map_err(RunError::Input)?;
-    if let Some(before) = before {
-        report.repeats(&origin.provenance, &before, case);
+impl Run<'_> {
+    /// Reads the mesh and spreads it. A case that lies beside its own result is told to repeat it, and must have its mesh. **Collective**
+    fn read_scene(&mut self) -> Result<Scene, RunError> {
+        let Self { case, options, session, stages, report, origin, .. } = self;
+        let _stage = stages.mesh.enter();
+        let bytes = reading::input::share_mesh(case, options.inputs.as_ref(), session)?;
+        if session.rank() == 0 {
+            Arc::make_mut(origin).add_mesh(case, bytes.clone(), &options.out);
+        }
+        let before = if session.rank() == 0 { origin::result_before(case, &bytes) } else { Ok(None) };
+        if let Some(before) = session.agree(before).map_err(RunError::Input)? {
+            report.repeats(&origin.provenance, &before, case);
+        }
+        interruption::keep_origin(origin.clone());
+        let mesh = session.agree(reading::scene::read_mesh(case, &bytes)).map_err(RunError::Input)?;
+        verdict::warnings::before::slits(&mesh).iter().for_each(|words| report.warn(words));
+        reading::scene::spread(case, mesh, session)
     }
-    let origin = Arc::new(origin);
-    interruption::keep_origin(origin.clone());
-    let mesh = session.agree(reading::scene::read_mesh(case, &bytes)).map_err(RunError::Input)?;
-    verdict::warnings::before::slits(&mesh).iter().for_each(|words| report.warn(words));
-    Ok((reading::scene::spread(case, mesh, session)?, origin))
 }

@@ -56,15 +56,14 @@ impl ResultOrigin {
         Self { provenance, case: case.resolved(), mesh: None }
     }
 
-    /// The same with the bytes of the mesh file, on rank 0, for a result in the folder `out`.
-    pub fn with_mesh(mut self, case: &Case, bytes: Vec<u8>, out: &Path) -> Self {
+    /// Adds the bytes of the mesh file, on rank 0, for a result in the folder `out`.
+    pub fn add_mesh(&mut self, case: &Case, bytes: Vec<u8>, out: &Path) {
         self.provenance.mesh_hash = Some(sha256(&bytes));
         // A result that is replaced may have the only copy of the mesh.
         if bytes.len() <= MOST_COPIED || is_within(&case.mesh.file, out) {
             self.case = case.resolved_with_mesh(MESH);
             self.mesh = Some(bytes);
         }
-        self
     }
 
     /// The case of a load step, as it is written to a folder so many levels inside that of the result.
