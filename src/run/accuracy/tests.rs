@@ -1,11 +1,7 @@
 //! What is asked for, what is reached, and what it would take, in words and in the summary.
 
-use super::goals::*;
 use super::*;
-use crate::accuracy::{ProbePoint, SequenceEnd};
-use crate::output::plot::grouped;
-use crate::output::summary::Status;
-use crate::run::words::{figure, plain, rounded_up};
+use crate::accuracy::ProbePoint;
 use std::collections::BTreeMap;
 
 fn adapted(last: [Option<f64>; 2]) -> Adaptation {
