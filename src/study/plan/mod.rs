@@ -1,8 +1,6 @@
 //! The study file: TOML text to a checked list of runs.
 
-mod moves;
 pub(super) mod planned;
-mod settings;
 pub(super) mod summary_path;
 
 use std::ops::Range;
@@ -18,9 +16,7 @@ use crate::case::schema::study::{ALONG, CASES, COLUMNS, ERROR, FIGURE, RANKS, RE
 use crate::case::section::{Section, read_whole};
 use crate::case::{Case, listed, name_of, read_text, values};
 
-use moves::Moves;
-use planned::{PlannedCase, PlannedRun};
-use settings::{StudyCurve, read_curve, read_grid, read_set};
+use planned::{Moves, PlannedCase, PlannedRun, StudyCurve, read_curve, read_grid, read_set};
 use summary_path::{ONLY, SummaryPath};
 
 /// A checked study: what is run, and what is asked of each result.
