@@ -12,7 +12,7 @@ use crate::run::Run;
 use crate::run::accuracy::ADAPTED_MESH;
 use crate::run::telling::report::memory;
 use crate::run::telling::{interruption, progress};
-use crate::run::verdict::expected::expected_values;
+use crate::run::verdict::exact::expected_values;
 use std::path::PathBuf;
 
 impl Run<'_> {
