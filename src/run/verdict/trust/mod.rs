@@ -4,7 +4,6 @@
 //! Every figure is held against its row of `limits/table.rs`; nothing here has a number of its own. A figure that speaks against a
 //! pressure is a doubt; where no figure speaks for it either, it is unknown.
 
-mod beyond;
 mod contact;
 mod remedies;
 #[cfg(test)]
@@ -12,8 +11,7 @@ pub(super) mod samples;
 mod told;
 mod zones;
 
-pub(super) use beyond::slip_doubt;
-pub(super) use contact::refinements_wanted;
+pub(super) use contact::{refinements_wanted, slip_doubt};
 pub(super) use remedies::finer_mesh;
 pub(super) use zones::width;
 

@@ -1,6 +1,5 @@
 //! What speaks against pressures.
 
-use super::beyond::*;
 use super::contact::*;
 use super::samples::*;
 use super::zones::*;
