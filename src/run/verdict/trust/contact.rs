@@ -11,11 +11,7 @@ use crate::contact::{Pair, Quadrature};
 use crate::element::Order;
 use crate::output::Summary;
 use crate::output::summary::{ContactSummary, ZoneSummary};
-use crate::run::verdict::limits::{
-    CORNERS, CUT_AT_JOINT, CUT_OFF, DIRECTION, Doubt, EDGES, ENERGY, FORCE, GROWTH, HELD_FORCE, INF_SUP, LITTLE_SLIP,
-    LOST_AT_ENDS, OSCILLATION, OVERLAP_BEYOND, P1_LOCKS, RESIDUAL, ROTATION, Remedy, SHAPE, SLANT, SLIP, SLIP_AT_ENDS, STRAIN,
-    TRUSTED_FORCE, TRUSTED_FORCE_ON_FEW, TURNING, WITHIN_SEGMENTS, percent,
-};
+use crate::run::verdict::limits::*;
 use crate::run::verdict::no_result::{balance_doubts, is_strained};
 use crate::run::words::short;
 

@@ -2,10 +2,7 @@
 
 use super::told::Objection;
 use crate::output::summary::{ContactSummary, ZoneSummary};
-use crate::run::verdict::limits::{
-    ALL_OVER, Doubt, EDGES, LEAST_FORCE_SHARE, MIDDLE, NEXT_TO_NOTHING, OVERLAP, OVERLAP_ALONE, PEAK, PEAK_AT_END, PROVES,
-    SEGMENTS, STEPS_ALL_OVER, ZONE_FORCE,
-};
+use crate::run::verdict::limits::*;
 use crate::run::words::short;
 
 /// What tells that zones are too narrow, or too coarse, for their pressure.
