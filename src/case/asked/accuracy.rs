@@ -2,9 +2,7 @@
 
 use crate::accuracy::{Accuracy, Goal, ProbePoint, Quantity};
 use crate::body::PointLoad;
-use crate::case::keys::{
-    ABOVE_ZERO, FormOf, Key, Section, TableRule, ValueForm, declare, either, key, named, number, table, whole, within,
-};
+use crate::case::keys::*;
 use crate::contact::{Law, Pair};
 
 declare! {

@@ -1,10 +1,7 @@
 //! `[exact]`: what is known of the result.
 
 use crate::case::bodies::body::region_names;
-use crate::case::keys::{
-    ABOVE_ZERO, ANY, BOOLEAN, FormOf, FromValue, IN_PLANE, Key, ListForm, NumberRange, POINTS, Section, TableRule, VECTOR,
-    ValueForm, declare, entries, inner, key, list, named, number, of, table,
-};
+use crate::case::keys::*;
 use crate::element::Plane;
 use crate::geometry::Formula;
 

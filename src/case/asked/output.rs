@@ -2,9 +2,7 @@
 
 use crate::accuracy::ProbePoint;
 use crate::case::bodies::body::region_names;
-use crate::case::keys::{
-    BOOLEAN, Choice, FormOf, ListForm, NAME, POINT, Section, ValueForm, declare, entries, key, of, table, word,
-};
+use crate::case::keys::*;
 use crate::element::{MEASURE_NAMES, MEASURES, Plane, StressMeasure};
 
 declare! {

@@ -4,10 +4,7 @@ use toml::{Table, Value};
 
 use super::gravity::{Gravity, read_weight, with_weight};
 use crate::body::{Body, BodyPart, Material};
-use crate::case::keys::{
-    ABOVE_ZERO, ANY, FormOf, IN_PLANE, NUMBER, NumberRange, Section, TableRule, VECTOR, declare, key, number, some_named, table,
-    within, word, words,
-};
+use crate::case::keys::*;
 use crate::element::{Heat, Plane};
 use crate::geometry::Formula;
 

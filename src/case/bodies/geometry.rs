@@ -1,8 +1,6 @@
 //! `[geometry.NAME]`, and curves of the plane as such tables and those of rigid tools have them.
 
-use crate::case::keys::{
-    ABOVE_ZERO, ANY, FormOf, NAMES, NUMBER, POINT, Section, TableRule, array, declare, formula, inner, key, table,
-};
+use crate::case::keys::*;
 use crate::geometry::{Curve, Formula, ParametricCurve};
 
 declare! {

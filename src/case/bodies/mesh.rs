@@ -8,10 +8,7 @@
 //! order of P2 would take 0.036, the estimated error in the energy norm at 189 956 unknowns is 1.9e-3 with 0.15 and 1.4e-3 with
 //! 0.1.
 
-use crate::case::keys::{
-    ABOVE_ZERO, AUTO, FormOf, FromValue, NAME, POINT, Section, TableRule, ValueForm, declare, either, inner, key, list, number,
-    set, table, values, whole, within,
-};
+use crate::case::keys::*;
 use crate::element::Order;
 use std::path::{Path, PathBuf};
 use toml::Value;

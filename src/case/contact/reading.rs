@@ -3,10 +3,7 @@
 use super::sides::Union;
 use crate::case::acting::rigid::is_one_curve;
 use crate::case::file::error::suggest;
-use crate::case::keys::{
-    AUTO, BOOLEAN, COUNT, FormOf, FromValue, IN_PLANE, LONGEST_NAME, ListForm, NAME, NAMES, NO_FILE_NAME, Section, TableRule,
-    ValueForm, array, declare, either, entries, key, number, of, table, whole, within, word, words,
-};
+use crate::case::keys::*;
 use crate::contact::{
     Configuration, CurveChoice, EndRule, GapChoice, Law, MultiplierSpace, Pair, Quadrature, SegmentRule, Side, Stabilise,
 };

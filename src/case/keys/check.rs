@@ -2,9 +2,7 @@
 
 use toml::{Table, Value};
 
-use super::form::{
-    Absent, KeyForm, LONGEST_NAME, ListForm, NO_FILE_NAME, NamedForm, NumberRange, TableForm, TableRule, ValueForm,
-};
+use super::form::*;
 use super::values::{self, must_be};
 use crate::case::file::error::{decimal_comma, did_you_mean, told};
 use crate::geometry::Formula;

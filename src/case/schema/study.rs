@@ -2,9 +2,7 @@
 
 use toml::{Table, Value};
 
-use crate::case::keys::{
-    COUNT, FormOf, ListForm, NAME, NumberRange, POSITIVE, ValueForm, declare, either, entries, key, number, of, set, table,
-};
+use crate::case::keys::*;
 
 declare! {
     static STUDY = table("study");
