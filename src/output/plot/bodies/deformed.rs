@@ -10,10 +10,7 @@ use super::stress::{BAR_ROOM, Colours, draw_colour_bar, draw_stress};
 use crate::element::StressMeasure;
 use crate::output::error::OutputError;
 use crate::output::plot::diagrams::DrawnContact;
-use crate::output::plot::drawing::{
-    Canvas, Chart, GREY, HEAD, INK, LegendCell, Paint, PlotRoom, VERMILION, WHITE, bounds, number_text, round_number,
-    up_to_the_axis,
-};
+use crate::output::plot::drawing::*;
 use crate::output::summary::BodySummary;
 use crate::output::units::Units;
 

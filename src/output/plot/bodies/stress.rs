@@ -2,10 +2,7 @@
 
 use super::facets::Facet;
 use crate::element::{MEASURE_NAMES, MEASURES, StressMeasure};
-use crate::output::plot::drawing::{
-    Canvas, Chart, Colour, Frame, GREY, INK, LegendCell, Letters, Paint, Scale, TextAnchor, cut_off, diverging, edges_around,
-    merged, number_text, range_of, viridis,
-};
+use crate::output::plot::drawing::*;
 use crate::output::units::Unit;
 
 /// Steps of the colour bar.

@@ -10,9 +10,7 @@ use super::stress::{Colours, draw_colour_bar, draw_stress};
 use crate::element::StressMeasure;
 use crate::output::error::OutputError;
 use crate::output::plot::diagrams::DrawnContact;
-use crate::output::plot::drawing::{
-    BLUE, Canvas, Chart, INK, LegendCell, Letters, Paint, TextAnchor, WHITE, bounds, number_text,
-};
+use crate::output::plot::drawing::*;
 use crate::recovery::TracePoint;
 
 /// An interval of a contact boundary that presses, and the part of the plane around it.

@@ -3,9 +3,7 @@
 use std::path::Path;
 
 use crate::output::error::OutputError;
-use crate::output::plot::drawing::{
-    BLUE, Canvas, Chart, Colour, GREEN, GREY, HEAD, LegendCell, Paint, Scale, VERMILION, cut_off, number_text, range_of, widened,
-};
+use crate::output::plot::drawing::*;
 use crate::output::units::{Unit, Units};
 use crate::recovery::TracePoint;
 
