@@ -152,3 +152,32 @@ fn forces_place_the_boundary_where_the_programme_is_dear() {
     assert!((peak - 1.0).abs() < 0.02, "{peak}");
     assert!(fits(&ended) <= 4, "{} boundaries", fits(&ended));
 }
+
+/// A tee on a base, its flange under two heads, is drawn up by its web: each head presses from its one edge to the other, and its boundary begins
+/// with a part of that on the first mesh. Both find all of it in a few fits.
+#[test]
+fn heads_on_a_flange_press_over_all_of_their_width() {
+    let case = r#"
+mesh = { file = "mesh.msh", order = 2, refine = 2 }
+body."*" = { young = 210e3, poisson = 0.3 }
+contact.base = { between = ["base.top", "tee.low"] }
+contact.left = { between = ["flange.left", "left.low"] }
+contact.right = { between = ["flange.right", "right.low"] }
+support.base = { on = "base.bottom", ux = 0.0, uy = 0.0 }
+support.heads = { on = "*.high", ux = 0.0, uy = -0.004 }
+support.tee = { body = "tee", mean = true, ux = 0.0 }
+load.web = { on = "web.top", traction = [0.0, 80.0] }
+output.fields = false
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), include_str!("meshes/tee_under_heads.msh"), case);
+    for ranks in [1, 2] {
+        let ended = Run::file(&file).ranks(ranks).converged();
+        // The same scene on edges of a quarter.
+        for name in ["left", "right"] {
+            let force = ended.number(&format!("/contact/{name}/force"));
+            assert!((force / 886.06 - 1.0).abs() < 2e-3, "{name} {force}: {}", ended.said());
+        }
+        assert!(fits(&ended) <= 8, "{} fits: {}", fits(&ended), ended.said());
+    }
+}

@@ -494,6 +494,41 @@ load.bore = { on = "hub.in", pressure = 100.0 }
     assert!(held.said().contains("nothing presses on contact first"), "{}", held.said());
 }
 
+/// A ring pressed between two plates, with clearance to a wall on either side: it may lie anywhere between them, which is said, with the
+/// hold that does. A wall was closed, and pulled.
+#[test]
+fn a_ring_between_walls_that_it_never_reaches_is_told_to_be_free() {
+    let plate = |y: [f64; 2], seed: u64| block([-1.5, 1.5], y, [22, 4], seed);
+    let wall = |x: [f64; 2], seed: u64| block(x, [-0.9, 0.9], [2, 14], seed);
+    let mesh = Mesh {
+        bodies: vec![
+            ("base", plate([-2.0, -1.0], 1), ["base.low", "", "base.face", ""]),
+            ("lid", plate([1.0, 1.5], 2), ["lid.face", "", "lid.high", ""]),
+            ("left", wall([-1.45, -1.05], 3), ["", "left.face", "", "wall"]),
+            ("right", wall([1.05, 1.45], 4), ["", "wall", "", "right.face"]),
+            ("ring", whole_ring([0.5, 1.0], 60), ["bore", "", "rim", ""]),
+        ],
+    };
+    let case = r#"
+mesh = { file = "mesh.msh", order = 2, refine = 1 }
+body."*" = { young = 1000.0, poisson = 0.3 }
+geometry.rim = { curves = "rim", circle = { centre = [0, 0], radius = 1 } }
+contact.rim = { between = ["*.face", "rim"] }
+support.base = { on = ["base.low", "wall"], ux = 0.0, uy = 0.0 }
+support.lid = { on = "lid.high", ux = 0.0, uy = -0.02 }
+support.hold = { body = "ring", mean = true, angle = 0.0 }
+output.fields = false
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    for ranks in ranks_in_turn(1) {
+        let ended = Run::file(&file).ranks(ranks).ended();
+        assert_eq!(ended.code, Some(3), "{}", ended.said());
+        assert!(ended.said().contains("hold it by ux = 0.0 in support.hold, too"), "{}", ended.said());
+    }
+    Run::file(&file).set("support.hold.ux", 0.0).converged();
+}
+
 /// A ring on a hub, drawn in it and held in its turn alone: where heat opens the joint the ring is held by rounding. It is told what holds
 /// it, on one mesh and where meshes are to adapt; where heat closes a clearance, contact holds it.
 #[test]

@@ -63,29 +63,32 @@ pub fn free_ends(pressure: &ContactPressure, history: &mut [FoundEnd; 2], least:
         return now;
     }
     for k in [0, 1] {
+        let outwards = if k == 0 { -1.0 } else { 1.0 };
         // At the end of a body contact may end with any pressure: it stays there, wherever the body goes.
         let last = multipliers_at(contact, k);
         if (now[k] - contact.limits[k]).abs() < AT_THE_END * edge && last.iter().all(|&i| active[i]) {
-            next[k] = contact.limits[k] + if k == 0 { -edge } else { edge };
+            next[k] = contact.limits[k] + outwards * edge;
             continue;
         }
-        let Some(arc) = true_end(boundary, &contact.multipliers, lambda, active, k) else { continue };
-        let off = boundary.parameter_at(arc) - now[k];
-        let step = match history[k] {
-            Some((before, was)) if now[k] != before => {
-                let slope = (off - was) / (now[k] - before);
-                let creeps = off * (now[k] - before) > 0.0 && slope >= -1.0 / MOST_STRETCH;
-                match slope {
-                    _ if creeps => MOST_STRETCH * off,
-                    -4.0..-0.25 => -off / slope,
-                    _ => off,
-                }
+        let Some(arc) = true_end(boundary, &contact.multipliers, lambda, active, k) else {
+            // A segment alone that presses all over tells no end: contact goes on as far again.
+            if active.iter().all(|&is_active| is_active) {
+                next[k] = now[k] + outwards * (now[1] - now[0]);
             }
-            _ => off,
+            continue;
         };
+        let off = boundary.parameter_at(arc) - now[k];
+        let slope = history[k].filter(|(before, _)| now[k] != *before).map(|(before, was)| (off - was) / (now[k] - before));
+        let creeps =
+            slope.is_some_and(|slope| slope >= -1.0 / MOST_STRETCH) && history[k].is_some_and(|(_, was)| off * was > 0.0);
         history[k] = Some((now[k], off));
-        let found = now[k] + step;
-        next[k] = if k == 0 { found.max(contact.limits[0]) } else { found.min(contact.limits[1]) };
+        let within = |end: f64| if k == 0 { end.max(contact.limits[0]) } else { end.min(contact.limits[1]) };
+        next[k] = match slope {
+            // The curve goes an edge beyond its ends, which is no farther than a step that creeps.
+            _ if creeps => now[k] + MOST_STRETCH * off,
+            Some(slope) if (-4.0..-0.25).contains(&slope) => within(now[k] - off / slope),
+            _ => within(now[k] + off),
+        };
     }
     // A contact smaller than an edge is none that the mesh can tell.
     if next[1].min(contact.limits[1]) - next[0].max(contact.limits[0]) > edge { next } else { now }

@@ -1,0 +1,23 @@
+// A tee on a base, its flange under two heads that stand still: it is drawn up by its web.
+Mesh.MeshSizeMax = 6;
+Point(1) = {-70, -30, 0}; Point(2) = {70, -30, 0}; Point(3) = {70, 0, 0}; Point(4) = {-70, 0, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Point(11) = {-60, 0, 0}; Point(12) = {60, 0, 0}; Point(13) = {60, 10, 0}; Point(14) = {5, 10, 0};
+Point(15) = {5, 60, 0}; Point(16) = {-5, 60, 0}; Point(17) = {-5, 10, 0}; Point(18) = {-60, 10, 0};
+Line(11) = {11, 12}; Line(12) = {12, 13}; Line(13) = {13, 14}; Line(14) = {14, 15};
+Line(15) = {15, 16}; Line(16) = {16, 17}; Line(17) = {17, 18}; Line(18) = {18, 11};
+Curve Loop(2) = {11:18}; Plane Surface(2) = {2};
+Point(21) = {-43, 10, 0}; Point(22) = {-27, 10, 0}; Point(23) = {-27, 18, 0}; Point(24) = {-43, 18, 0};
+Line(21) = {21, 22}; Line(22) = {22, 23}; Line(23) = {23, 24}; Line(24) = {24, 21};
+Curve Loop(3) = {21:24}; Plane Surface(3) = {3};
+Point(31) = {27, 10, 0}; Point(32) = {43, 10, 0}; Point(33) = {43, 18, 0}; Point(34) = {27, 18, 0};
+Line(31) = {31, 32}; Line(32) = {32, 33}; Line(33) = {33, 34}; Line(34) = {34, 31};
+Curve Loop(4) = {31:34}; Plane Surface(4) = {4};
+Transfinite Curve {11} = 21; Transfinite Curve {13, 17} = 11; Transfinite Curve {21, 31} = 4;
+Physical Surface("base") = {1}; Physical Surface("tee") = {2};
+Physical Surface("left") = {3}; Physical Surface("right") = {4};
+Physical Curve("base.bottom") = {1}; Physical Curve("base.top") = {3};
+Physical Curve("tee.low") = {11}; Physical Curve("flange.left") = {17}; Physical Curve("flange.right") = {13}; Physical Curve("web.top") = {15};
+Physical Curve("left.low") = {21}; Physical Curve("left.high") = {23};
+Physical Curve("right.low") = {31}; Physical Curve("right.high") = {33};
