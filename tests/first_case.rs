@@ -115,48 +115,48 @@ fn first_cases_of_many_meshes_can_be_checked() {
     }
 }
 
-/// A boundary that turns from a flat over into an arc, and sides that face each other at a corner only: no contact can be made of
-/// them as they are drawn. The case has the others, says why, and passes.
+/// A boundary that turns from a flat over into an arc: no contact can be made of it as it is drawn. The case says why, and has no contact.
 #[test]
 fn contacts_that_check_refuses_are_left_out_of_first_cases() {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
     let folder = tempfile::tempdir().expect("a temporary folder");
-    for (name, left_out, why, others) in [
-        (
-            "bars_parabola/bars",
-            "# [contact.seam]\n# between = [\"lower.seam\", \"upper.seam\"]",
-            "pieces with different shapes",
-            0,
-        ),
-        ("three_bodies/sectors", "# between = [\"right.first\", \"bottom.first\"]", "face each other nowhere over a length", 3),
-    ] {
-        std::fs::copy(cases.join(format!("{name}.msh")), folder.path().join("mesh.msh")).expect("a mesh");
-        let text = std::fs::read_to_string(new_case(folder.path(), "mesh.msh")).expect("a case");
-        assert!(text.contains("\n# Left out, since `mezha check` refuses it:\n") && text.contains(left_out), "{name}:\n{text}");
-        assert!(text.contains(why), "{name}:\n{text}");
-        assert_eq!(text.matches("\n[contact.").count(), others, "{name}:\n{text}");
-        let (code, output, errors) = mezha_in(folder.path(), None, &["check", "case.toml"]);
+    std::fs::copy(cases.join("bars_parabola/bars.msh"), folder.path().join("mesh.msh")).expect("a mesh");
+    let text = std::fs::read_to_string(new_case(folder.path(), "mesh.msh")).expect("a case");
+    for words in [
+        "\n# Left out, since `mezha check` refuses it:\n",
+        "# [contact.seam]\n# between = [\"lower.seam\", \"upper.seam\"]",
+        "pieces with different shapes",
         // No support is made up for a body that has neither contact nor support: what would hold it is told.
-        let words =
-            "# This case does not pass `mezha check` yet:\n#   body \"upper\" has neither contact nor support; mend the contact";
-        let hold = "# Body \"upper\" has neither contact nor support. This would hold it:\n# [support.upper-still]\n";
-        assert_eq!(code, Some(if others == 0 { 3 } else { 0 }), "{name}: {errors}\n{text}");
-        assert!([words, hold].iter().all(|words| text.contains(words) == (others == 0)), "{name}:\n{text}");
-        assert!(!text.contains("\n[support.upper"), "{name}:\n{text}");
-        let told = format!("{output}{errors}");
-        // Bodies that touch elsewhere, too, want no further contact.
-        assert!(
-            told.contains("no contact can be made of them: ") == (others == 0) && !told.contains("paste this"),
-            "{name}: {told}"
-        );
-        // Where no contact of a body is left, nothing would carry a load of it.
-        let no_load = "Nothing presses yet: the contact that would carry a load of \"upper\" is left out.";
-        assert!(text.contains(no_load) == (others == 0) && !text.contains("\n[load."), "{name}:\n{text}");
-        assert!(!text.contains("000000"), "coordinates that are rounding are 0:\n{text}");
-        let (_, _, errors) = mezha_in(folder.path(), None, &["new", "mesh.msh"]);
-        assert!(errors.contains("is left out: ") && errors.contains(why), "{name}: {errors}");
-        assert!(errors.contains("body \"upper\" has neither contact nor support") == (others == 0), "{name}: {errors}");
+        "# This case does not pass `mezha check` yet:\n#   body \"upper\" has neither contact nor support; mend the contact",
+        "# Body \"upper\" has neither contact nor support. This would hold it:\n# [support.upper-still]\n",
+        // Nothing would carry a load of it.
+        "Nothing presses yet: the contact that would carry a load of \"upper\" is left out.",
+    ] {
+        assert!(text.contains(words), "no `{words}` in:\n{text}");
     }
+    for words in ["\n[contact.", "\n[support.upper", "\n[load.", "000000"] {
+        assert!(!text.contains(words), "`{words}` in:\n{text}");
+    }
+    let (code, output, errors) = mezha_in(folder.path(), None, &["check", "case.toml"]);
+    let told = format!("{output}{errors}");
+    assert!(code == Some(3) && told.contains("no contact can be made of them: ") && !told.contains("paste this"), "{told}");
+    let (_, _, errors) = mezha_in(folder.path(), None, &["new", "mesh.msh"]);
+    let words = ["is left out: ", "pieces with different shapes", "body \"upper\" has neither contact nor support"];
+    assert!(words.iter().all(|words| errors.contains(words)), "{errors}");
+}
+
+/// Three sectors of a disc, which face each other along their cuts, and meet with other boundaries at the middle alone: no contact is made
+/// of these.
+#[test]
+fn boundaries_that_meet_at_a_corner_alone_are_no_contacts_of_first_cases() {
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/three_bodies/sectors.msh");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    std::fs::copy(mesh, folder.path().join("mesh.msh")).expect("a mesh");
+    let text = std::fs::read_to_string(new_case(folder.path(), "mesh.msh")).expect("a case");
+    assert_eq!(text.matches("\n[contact.").count(), 3, "{text}");
+    assert!(!text.contains("Left out") && !text.contains("000000"), "{text}");
+    let (code, output, errors) = mezha_in(folder.path(), None, &["check", "case.toml"]);
+    assert!(code == Some(0) && !format!("{output}{errors}").contains("paste this"), "{output}{errors}");
 }
 
 /// What a mesh says by its names and by how it is drawn: a case without a load for bodies that reach into each other, one that pulls

@@ -421,4 +421,22 @@ fn mistakes_are_told() {
     }
     let (code, output, errors) = mezha(None, &["check", &file, "--set", "support.below.uy=0.0"]);
     assert!(code == Some(2) && errors.contains("uy of \"lower\" is held at (0, 0) by support.table, too"), "{output}{errors}");
+    // A plate holds nothing by itself, and what it moves is held by its own keys.
+    let plate = "load.top={ on = \"top\", rigid = true, force = [0.0, -6.0] }";
+    let (code, output, errors) = mezha(None, &["check", &file, "--set", plate]);
+    assert!(code == Some(2) && errors.contains("load.top moves \"upper\" as a plate"), "{output}{errors}");
+}
+
+/// What a plate moves, and nothing holds, is to be held by the plate: a support of a point on it would be refused.
+#[test]
+fn no_support_is_proposed_for_what_a_plate_moves() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let case = BLOCKS.replace("support.above = { body = \"upper\", mean = true, ux = 0.01 }\n", "");
+    let case = case.replace("pressure = 3.0", "rigid = true, force = [0.0, -6.0]");
+    let file = write_scene(folder.path(), &blocks().text(), &case).display().to_string();
+    let (code, output, errors) = mezha(None, &["check", &file]);
+    assert!(code == Some(3) && errors.contains("prescribe ux, uy or angle of load.top"), "{output}{errors}");
+    assert!(!output.contains("[support."), "{output}");
+    let (code, output, errors) = mezha(None, &["check", &file, "--set", "load.top.ux=0.0"]);
+    assert!(code == Some(0), "{output}{errors}");
 }

@@ -249,10 +249,13 @@ fn support_for(case: &Case, scene: &Scene, motion: &Mechanism, own: &[Proposed],
         edge.map(|&edge| mesh.piece_beside(edge))
     };
     let holds = |on: &[String]| on.iter().any(|name| boundary_piece(name) == Some(motion.piece));
+    // What a plate moves is held by the keys of the plate, which are named beside the motion.
+    if case.plates.iter().any(|plate| holds(&plate.on)) {
+        return None;
+    }
     let is_ours = |body: &String| own.iter().any(|own| matches!(own, Proposed::Mean(own) if own.body == *body));
     let is_held = case.supports.iter().any(|support| holds(&support.on) || support.at.is_some())
         || case.springs.iter().any(|springs| holds(&springs.on))
-        || case.plates.iter().any(|plate| holds(&plate.on))
         || case.means.iter().any(|mean| mean.body == *name && !is_ours(&mean.body));
     let is_whole = mesh.pieces.iter().filter(|piece| piece.body == body).count() == 1;
     let (shift, turn) = motion.moves;

@@ -57,6 +57,12 @@ pub fn check_means(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
                 Coordinates(x)
             ));
         }
+        if let Some(plate) = case.plates.iter().find(|plate| !edges_of(mesh, &plate.on, &hold.body).is_empty()) {
+            return error(format!(
+                "load.{} moves \"{}\" as a plate, and beside that no mean is held; prescribe ux, uy or angle of the plate, or let it be a traction, and hold the mean",
+                plate.name, hold.body
+            ));
+        }
         let spots = case.supports.iter().filter_map(|support| support.at.as_ref());
         if spots.filter_map(|spot| mesh.vertex_at(spot)).any(|vertex| hold.anchors.iter().any(|anchor| anchor.vertex == vertex)) {
             return error("a point at which another support holds this body is in its way; hold the body by points alone".into());
@@ -76,13 +82,9 @@ fn resisting<'a>(case: &Case, mesh: &MacroMesh, hold: &'a MeanHold) -> Option<(S
     };
     let supports = case.supports.iter().map(|support| (&support.name, held_directions(support, mesh, &hold.body)));
     let springs = case.springs.iter().map(|springs| (&springs.name, pulled_directions(springs, mesh, &hold.body)));
-    let resisted = supports.chain(springs).find_map(|(name, directions)| {
+    supports.chain(springs).find_map(|(name, directions)| {
         let (x, held) = directions.into_iter().find_map(|(x, direction)| Some((x, moved(x, direction)?)))?;
         Some((format!("support.{name}"), held, x))
-    });
-    resisted.or_else(|| {
-        let on = case.plates.iter().find_map(|plate| Some((plate, *edges_of(mesh, &plate.on, &hold.body).first()?)));
-        on.and_then(|(plate, edge)| Some((format!("load.{}", plate.name), hold.held.first()?, mesh.edge_position(edge, 0.5))))
     })
 }
 
