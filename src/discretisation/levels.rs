@@ -102,11 +102,11 @@ impl Discretisation {
     ///
     /// # Errors
     /// As of [`HeldBodies::new`].
-    pub fn held_bodies(&self, session: &Session) -> Result<Rc<HeldBodies>, SystemError> {
+    pub fn held_bodies(&self) -> Result<Rc<HeldBodies>, SystemError> {
         if let Some(found) = self.without_contact.held.get() {
             return Ok(found.clone());
         }
-        let found = Rc::new(HeldBodies::new(&self.scene, self.finest(), session)?);
+        let found = Rc::new(HeldBodies::new(&self.scene, self.finest(), &self.session)?);
         Ok(self.without_contact.held.get_or_init(|| found).clone())
     }
 

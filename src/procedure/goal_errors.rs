@@ -97,7 +97,7 @@ impl Procedure<'_> {
         let depth = complete.map(|point| -point.gap * contact.boundary.width_at(point.x)).fold(0.0, f64::max);
         let modulus = contact.moduli.iter().copied().fold(0.0, f64::max);
         let worth = HERTZ_BY_UNRESOLVED * modulus * depth;
-        let is_needed = || needed_contacts(problem, &solution.active, self.session)[at];
+        let is_needed = || needed_contacts(problem, &solution.active)[at];
         Ok(if own + worth > tolerance * largest && is_needed() { own } else { own + worth } / largest)
     }
 

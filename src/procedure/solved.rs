@@ -77,7 +77,7 @@ impl Solved {
         let (contacts, mut active) = (&self.problem.contacts, self.solution.active.clone());
         let loose = contacts.iter().filter(|contact| names.contains(&contact.pair.name));
         loose.for_each(|contact| active[contact.range()].fill(false));
-        if names.is_empty() { None } else { adrift(&self.problem, &active, &self.problem.session) }
+        if names.is_empty() { None } else { adrift(&self.problem, &active) }
     }
 
     /// Displacement unknowns and Krylov iterations of all solves on each refinement of the last mesh, the coarsest first.

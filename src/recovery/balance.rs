@@ -111,7 +111,7 @@ pub fn balance(problem: &Discretisation, solution: &Solution, u: &Field<2>) -> R
         reactions,
         mean_moments: problem.mean_forces.iter().map(|&[_, _, moment]| moment).collect(),
         rigid,
-        motions: rigid_motions(problem, &solution.displacement, &problem.session),
+        motions: rigid_motions(problem, &solution.displacement),
         forces: magnitudes(contacts, &forces, &bodies),
         contacts: forces,
     })

@@ -60,9 +60,9 @@ impl<'a> Evaluation<'a> {
         problem.session.max(&mut moved);
         let balance = balance(problem, solution, &u)?;
         let (deformations, turns) = deformations(problem, &u)?;
-        let needed = needed_contacts(problem, &solution.active, &problem.session);
+        let needed = needed_contacts(problem, &solution.active);
         let motions = motion_errors((problem, &needed), solution, &balance, (&deformations, &turns));
-        let held_forces = held_forces(problem, solution, &balance, &problem.session);
+        let held_forces = held_forces(problem, solution, &balance);
         let forces: Vec<f64> = balance.contacts.iter().map(|contact| contact.force).collect();
         let penetrations = penetrations(problem, solution, &forces);
         Ok(Self {

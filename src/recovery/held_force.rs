@@ -4,7 +4,6 @@ use super::balance::Balance;
 use crate::body::MeanHold;
 use crate::discretisation::{Contact, Discretisation, HeldLoad, Solution, forces_without_holds};
 use crate::geometry::Point;
-use crate::petsc::Session;
 
 /// Share of all forces below which a force of a hold, or what it changes, is none.
 const NOTHING: f64 = 1e-6;
@@ -21,7 +20,7 @@ const LEFT: f64 = 0.1;
 
 /// For each contact by how much its force would change if contact carried what a mean motion is held against, by that force: forces and
 /// moments each by themselves. A hold that moves its body presses it. **Collective**
-pub fn held_forces(problem: &Discretisation, solution: &Solution, balance: &Balance, session: &Session) -> Vec<f64> {
+pub fn held_forces(problem: &Discretisation, solution: &Solution, balance: &Balance) -> Vec<f64> {
     let scene = &problem.scene;
     let reactions = balance.reactions.iter().skip(scene.supports.len() + scene.springs.len());
     let found = scene.means.iter().zip(reactions.zip(&balance.mean_moments));
@@ -39,7 +38,7 @@ pub fn held_forces(problem: &Discretisation, solution: &Solution, balance: &Bala
     let is_driven = |load: &HeldLoad| counts(size(load)) && (load.moment == 0.0 || size(load) > FAINT * largest(load.hold));
     let driven: Vec<HeldLoad> = loads.filter(is_driven).collect();
     let mut shares = vec![0.0_f64; problem.contacts.len()];
-    for changes in forces_without_holds(problem, &solution.active, &driven, session).into_iter().flatten() {
+    for changes in forces_without_holds(problem, &solution.active, &driven).into_iter().flatten() {
         let counting = changes.iter().zip(&balance.contacts).filter(|([_, size], _)| counts(*size));
         if !could_carry(&counting.map(|(change, own)| (*change, own.force)).collect::<Vec<_>>()) {
             continue;

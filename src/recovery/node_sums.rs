@@ -126,7 +126,7 @@ impl NodeSums {
         [internal, springs]: [&Field<2>; 2],
     ) -> Result<Self, SystemError> {
         let space = problem.finest();
-        let applied = nodal_forces(problem, &problem.session)?;
+        let applied = nodal_forces(problem)?;
         let pressed = contact_forces_of_nodes(problem, solution);
         let body_of = body_of_nodes(problem);
         let (supports, sets) = (&problem.scene.supports, &problem.scene.rigid);

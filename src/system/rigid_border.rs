@@ -83,7 +83,7 @@ impl RigidBorder {
             young: scene.young().into_iter().filter(|young| young.is_finite()).fold(f64::MIN_POSITIVE, f64::max),
             nodes: Vec::new(),
         };
-        let loads = nodal_forces(problem, &problem.session)?;
+        let loads = nodal_forces(problem)?;
         border.add_sets(problem, &loads)?;
         if !scene.means.is_empty() {
             border.add_held_bodies(problem, &loads)?;
@@ -143,7 +143,7 @@ impl RigidBorder {
     /// Adds the modes of bodies whose mean is held. **Collective**
     fn add_held_bodies(&mut self, problem: &Discretisation, loads: &Field<2>) -> Result<(), SystemError> {
         let (scene, space) = (&problem.scene, problem.finest());
-        let bodies = problem.held_bodies(&problem.session)?;
+        let bodies = problem.held_bodies()?;
         let (sets, first) = (self.of_set.len(), self.components.len());
         let mut means: Vec<Free> = Vec::new();
         for (number, hold) in scene.means.iter().enumerate() {
@@ -216,7 +216,7 @@ impl RigidBorder {
 
     /// The components that this rank's displacements, in the nodes' frames, have in them. **Collective**
     pub fn motion_of(&self, problem: &Discretisation, displacement: &[f64]) -> Vec<f64> {
-        let sets = rigid_motions(problem, displacement, &problem.session);
+        let sets = rigid_motions(problem, displacement);
         let free = problem.scene.rigid.iter().zip(&sets).flat_map(|(set, motion)| set.free().map(|k| motion[k]));
         let about = &self.about[problem.scene.rigid.len()..];
         free.chain(held_motions(&problem.scene, problem.finest(), about, displacement, &problem.session).into_iter().flatten())

@@ -39,7 +39,7 @@ fn measure(scene: Scene, session: &Session) {
     let start = Instant::now();
     let (order, space) = (scene.order, scene.pairs[0].space);
     let problem = Discretisation::new(scene, session).expect("a discretisation");
-    let load = load(&problem, &nodal_forces(&problem, session).expect("loads"));
+    let load = load(&problem, &nodal_forces(&problem).expect("loads"));
     let choice = SolverChoice::FieldSplit;
     let blocks = SaddlePoint::new(&problem, load, choice.form()).expect("blocks");
     let interpolations = interpolations(&problem).into();

@@ -87,8 +87,8 @@ fn moving_problems(session: &Session) -> Vec<Discretisation> {
     [held, plate].map(|scene| Discretisation::new(scene, session).expect("a discretisation")).into()
 }
 
-fn system<'a>(problem: &'a Discretisation, choice: SolverChoice, session: &Session) -> (System<'a>, Rc<[Interpolation]>) {
-    system_from(problem, choice, Preconditioning::Sweep, session)
+fn system(problem: &Discretisation, choice: SolverChoice) -> (System<'_>, Rc<[Interpolation]>) {
+    system_from(problem, choice, Preconditioning::Sweep)
 }
 
 /// A system whose solver begins with a preconditioning.
@@ -96,9 +96,8 @@ fn system_from<'a>(
     problem: &'a Discretisation,
     choice: SolverChoice,
     first: Preconditioning,
-    session: &Session,
 ) -> (System<'a>, Rc<[Interpolation]>) {
-    let load = load(problem, &nodal_forces(problem, session).expect("loads"));
+    let load = load(problem, &nodal_forces(problem).expect("loads"));
     let blocks = SaddlePoint::new(problem, load, choice.form()).expect("blocks");
     let interpolations: Rc<[Interpolation]> = match choice.form() {
         Form::Augmented => interpolations(problem).into(),
@@ -210,7 +209,7 @@ impl<'a> Definition<'a> {
 
     /// `f`, with what prescribed displacements add.
     fn load(&self) -> Vec<f64> {
-        let load = load(self.problem, &nodal_forces(self.problem, self.session).expect("loads"));
+        let load = load(self.problem, &nodal_forces(self.problem).expect("loads"));
         Elastic::alone(self.problem, load, Form::Plain).expect("a stiffness").load
     }
 
@@ -259,7 +258,7 @@ fn apart(session: &Session, a: &[f64], b: &[f64]) -> f64 {
 fn blocks_and_right_hand_side_are_those_of_the_set(session: &Session) {
     for problem in problems(session) {
         let definition = Definition::new(&problem, session);
-        let (mut system, _) = system(&problem, SolverChoice::FieldSplit, session);
+        let (mut system, _) = system(&problem, SolverChoice::FieldSplit);
         let space = problem.finest();
         let mut u = Vector::new(session, space.local_unknowns()).expect("a vector");
         let first = 2 * space.own.start;
@@ -311,7 +310,7 @@ fn restrict(interpolation: &Interpolation, x: &Vector, y: &mut Vector) {
 fn every_level_is_the_galerkin_product_of_the_next(session: &Session) {
     let mut most = 0;
     for problem in problems(session) {
-        let (mut system, interpolations) = system(&problem, SolverChoice::FieldSplit, session);
+        let (mut system, interpolations) = system(&problem, SolverChoice::FieldSplit);
         for active in sets(problem.multiplier_count()).into_iter().skip(1).step_by(2) {
             system.set_active(&active).expect("a set");
             let levels = system.levels().expect("levels");
@@ -346,7 +345,7 @@ fn the_solution_does_not_know_the_sets_before(session: &Session) {
     for problem in problems(session).into_iter().step_by(2) {
         let all = sets(problem.multiplier_count());
         let last = &all[all.len() - 1];
-        let [mut travelled, mut fresh] = [0; 2].map(|_| system(&problem, SolverChoice::FieldSplit, session).0);
+        let [mut travelled, mut fresh] = [0; 2].map(|_| system(&problem, SolverChoice::FieldSplit).0);
         for (k, set) in all.iter().enumerate() {
             travelled.set_active(set).expect("a set");
             // The solver has seen two of the sets.
@@ -371,7 +370,7 @@ fn a_factor_leaves_nothing_behind_for_the_solvers_after_it(session: &Session) {
     use Preconditioning::{Factor, Sweep, TwoSteps};
     let problem = &problems(session)[0];
     let pressures = [Factor, Sweep, TwoSteps, Sweep, Factor, Sweep].map(|first| {
-        let (mut system, _) = system_from(problem, SolverChoice::FieldSplit, first, session);
+        let (mut system, _) = system_from(problem, SolverChoice::FieldSplit, first);
         assert_eq!(system.solve(1e-11).expect("a solve").ending, LinearEnding::Converged);
         system.pressures()
     });
@@ -383,7 +382,7 @@ fn a_plain_system_has_the_solution_of_the_augmented_one(session: &Session) {
     for problem in &all[1..3] {
         let sets = sets(problem.multiplier_count());
         let [a, b] = [SolverChoice::FieldSplit, SolverChoice::Direct].map(|choice| {
-            let (mut system, _) = system(problem, choice, session);
+            let (mut system, _) = system(problem, choice);
             sets[..3].iter().for_each(|set| system.set_active(set).expect("a set"));
             assert_eq!(system.solve(1e-11).expect("a solve").ending, LinearEnding::Converged);
             assert!(system.both_residuals().expect("a residual").1 < 1e-9);
@@ -398,7 +397,7 @@ fn a_plain_system_has_the_solution_of_the_augmented_one(session: &Session) {
 fn responses_are_those_of_load_and_gap_and_reciprocal(session: &Session) {
     for problem in problems(session).into_iter().step_by(3) {
         let definition = Definition::new(&problem, session);
-        let (mut system, _) = system(&problem, SolverChoice::FieldSplit, session);
+        let (mut system, _) = system(&problem, SolverChoice::FieldSplit);
         let set = &sets(problem.multiplier_count())[1];
         system.set_active(set).expect("a set");
         let mut respond = |load: &[f64], gap: &[f64]| system.response(load, gap, 1e-11).expect("a response");
@@ -432,7 +431,7 @@ fn rigid_motions_are_those_of_every_solver_and_set(session: &Session) {
     for problem in &moving_problems(session) {
         let all = sets(problem.multiplier_count());
         let found = [SolverChoice::FieldSplit, SolverChoice::Direct, SolverChoice::FieldSplit].map(|choice| {
-            let mut system = system(problem, choice, session).0;
+            let mut system = system(problem, choice).0;
             for (k, set) in all.iter().enumerate().filter(|(k, _)| *k != 3) {
                 system.set_active(set).expect("a set");
                 if k == 0 || k == 2 {
@@ -444,7 +443,7 @@ fn rigid_motions_are_those_of_every_solver_and_set(session: &Session) {
             assert!(choice == SolverChoice::FieldSplit || solved.iterations <= 8, "a factor: {} iterations", solved.iterations);
             (system.pressures(), system.displacement())
         });
-        let mut fresh = system(problem, SolverChoice::FieldSplit, session).0;
+        let mut fresh = system(problem, SolverChoice::FieldSplit).0;
         fresh.set_active(&all[all.len() - 1]).expect("a set");
         assert_eq!(fresh.solve(1e-11).expect("a solve").ending, LinearEnding::Converged);
         for (pressures, displacement) in &found {
@@ -471,7 +470,7 @@ fn load_is_free(problem: &Discretisation, first: usize, k: usize) -> bool {
 fn the_plain_residual_is_that_of_the_system_without_augmentation(session: &Session) {
     for problem in &problems(session)[1..4] {
         let definition = Definition::new(problem, session);
-        let (mut system, _) = system(problem, SolverChoice::FieldSplit, session);
+        let (mut system, _) = system(problem, SolverChoice::FieldSplit);
         let space = problem.finest();
         let (count, first) = (problem.multiplier_count(), 2 * space.own.start);
         let mut u = Vector::new(session, space.local_unknowns()).expect("a vector");

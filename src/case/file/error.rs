@@ -108,6 +108,9 @@ fn plain_syntax(message: &str) -> String {
     if message.contains("as i128") || message.contains("number too large") {
         return "a whole number has more than 18 digits; write it with a dot or an exponent, as 1e20".into();
     }
+    if message.contains("invalid mantissa") || message.contains("invalid fraction") {
+        return "a number has digits before and behind its dot; write 0.5 and 2.0".into();
+    }
     message.replace('\n', ", ").chars().filter(|letter| !letter.is_control()).take(LONGEST_MESSAGE).collect()
 }
 

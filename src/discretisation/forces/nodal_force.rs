@@ -8,17 +8,16 @@ use crate::discretisation::levels::Discretisation;
 use crate::discretisation::scene::Scene;
 use crate::geometry::Point;
 use crate::mesh::Numbering;
-use crate::petsc::Session;
 
 /// Forces of loads and body forces, and of what holds mean motions, at the nodes, in global axes. **Collective**
 ///
 /// # Errors
 /// [`SystemError::Case`] if a triangle is turned inside out, or a force has no finite value.
-pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field<2>, SystemError> {
+pub fn nodal_forces(problem: &Discretisation) -> Result<Field<2>, SystemError> {
     let mut forces = match problem.without_contact.applied.get() {
         Some(found) => found.clone(),
         None => {
-            let found = applied(problem, session)?;
+            let found = applied(problem)?;
             // Those of loads alone are soon found again: their memory is free while the system is solved.
             if problem.scene.parts().iter().any(|part| part.is_loaded()) {
                 _ = problem.without_contact.applied.set(found.clone());
@@ -27,14 +26,14 @@ pub fn nodal_forces(problem: &Discretisation, session: &Session) -> Result<Field
         }
     };
     if problem.mean_forces.iter().flatten().any(|force| *force != 0.0) {
-        forces.add(1.0, &mean_forces(problem, session)?);
+        forces.add(1.0, &mean_forces(problem)?);
     }
     Ok(forces)
 }
 
 /// Forces of loads and body forces. **Collective**
-fn applied(problem: &Discretisation, session: &Session) -> Result<Field<2>, SystemError> {
-    let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
+fn applied(problem: &Discretisation) -> Result<Field<2>, SystemError> {
+    let (scene, numbering, session) = (&problem.scene, &problem.finest().numbering, &problem.session);
     let mut forces = Field::<2>::zeros(scene, problem.finest(), session);
     let add = |node, force| forces.add_at(node, force);
     let rank = session.rank();
@@ -50,18 +49,18 @@ fn applied(problem: &Discretisation, session: &Session) -> Result<Field<2>, Syst
 }
 
 /// What holds mean motions, as nodal forces. **Collective**
-fn mean_forces(problem: &Discretisation, session: &Session) -> Result<Field<2>, SystemError> {
+fn mean_forces(problem: &Discretisation) -> Result<Field<2>, SystemError> {
     let (scene, numbering) = (&problem.scene, &problem.finest().numbering);
-    let (bodies, of_body) = (problem.held_bodies(session)?, holds_of_bodies(scene));
-    let mut forces = Field::<2>::zeros(scene, problem.finest(), session);
-    for triangle in scene.partition.triangles_of(session.rank()).iter().map(|&triangle| triangle as usize) {
+    let (bodies, of_body) = (problem.held_bodies()?, holds_of_bodies(scene));
+    let mut forces = Field::<2>::zeros(scene, problem.finest(), &problem.session);
+    for triangle in problem.own_triangles().iter().map(|&triangle| triangle as usize) {
         let Some(hold) = of_body[scene.mesh.triangles[triangle].body as usize] else { continue };
         let spread = bodies.spread(hold, &problem.mean_forces[hold]);
         let density = |points: &[Point; 6]| points.map(|x| bodies.moved(hold, &spread, x));
         // No triangle is turned inside out: the bodies have been measured.
         _ = body_forces(&scene.mesh, triangle, numbering, density, &mut |node, force| forces.add_at(node, force));
     }
-    Ok(forces.sum(session))
+    Ok(forces.sum(&problem.session))
 }
 
 /// The load or force on this rank's macro triangles that has no finite value.

@@ -26,16 +26,16 @@ const ALIKE: f64 = 0.99;
 pub(super) const FIRM: f64 = 1e-2;
 
 /// Words for a body that neither supports nor the active multipliers hold; nothing if all are held. **Collective**
-pub fn not_held(problem: &Discretisation, active: &[bool], session: &Session) -> Option<String> {
-    Restraints::of(problem, session).not_held(active)
+pub fn not_held(problem: &Discretisation, active: &[bool]) -> Option<String> {
+    Restraints::of(problem).not_held(active)
 }
 
 /// Words for a body that nothing drives, and that neither supports nor those contacts hold of which a multiplier is active; nothing if
 /// there is none. **Collective**
-pub fn adrift(problem: &Discretisation, active: &[bool], session: &Session) -> Option<String> {
+pub fn adrift(problem: &Discretisation, active: &[bool]) -> Option<String> {
     let is_closed = |contact: &Contact| vec![active[contact.range()].contains(&true); contact.multipliers.count()];
     let closed: Vec<bool> = problem.contacts.iter().flat_map(is_closed).collect();
-    let whole = Restraints::of(problem, session);
+    let whole = Restraints::of(problem);
     let mechanism = whole.mechanism(&closed)?;
     if whole.free(|free| free.is_driven(), &mechanism) { None } else { whole.not_held(&closed) }
 }
@@ -64,8 +64,8 @@ pub fn free_motion_if_closed(
 
 /// For each contact whether some body could move if it were open: then equilibrium sets its force, and bodies that are a little
 /// farther apart there come together again. **Collective**
-pub fn needed_contacts(problem: &Discretisation, active: &[bool], session: &Session) -> Vec<bool> {
-    let (whole, extents) = (Restraints::of(problem, session), problem.scene.extents());
+pub fn needed_contacts(problem: &Discretisation, active: &[bool]) -> Vec<bool> {
+    let (whole, extents) = (Restraints::of(problem), problem.scene.extents());
     let mut held = support_conditions(&problem.scene, &extents);
     held.extend(spring_conditions(&problem.scene, &extents, FIRM));
     contact::needed_contacts(&extents, &held, &whole.touches(&extents, active))
@@ -74,8 +74,8 @@ pub fn needed_contacts(problem: &Discretisation, active: &[bool], session: &Sess
 /// Of the open multipliers those that hold every body if they close: for one motion after the other that nothing holds, the one with
 /// the largest `force` on the contact that the loads drive the body against, or on any of its contacts where there is none. In a box
 /// with clearance the wall that a body is driven off may be as near as the one that stops it. **Collective**
-pub fn few_that_hold(problem: &Discretisation, active: &[bool], force: impl Fn(usize) -> f64, session: &Session) -> Vec<usize> {
-    let whole = Restraints::of(problem, session);
+pub fn few_that_hold(problem: &Discretisation, active: &[bool], force: impl Fn(usize) -> f64) -> Vec<usize> {
+    let whole = Restraints::of(problem);
     let (mut closed, mut few) = (active.to_vec(), Vec::new());
     while let Some(mechanism) = whole.mechanism(&closed) {
         let stops = whole.free(|free| free.stopped_by(&whole.touches(free.extents, &vec![true; closed.len()])), &mechanism);
@@ -103,13 +103,13 @@ pub(super) struct Restraints<'a> {
 }
 
 impl<'a> Restraints<'a> {
-    pub(super) fn of(problem: &'a Discretisation, session: &'a Session) -> Self {
+    pub(super) fn of(problem: &'a Discretisation) -> Self {
         Self {
             scene: &problem.scene,
             numbering: &problem.finest().numbering,
             contacts: &problem.contacts,
             rows: &problem.coupling.rows,
-            shared: Some((session, &problem.coupling.owners)),
+            shared: Some((&problem.session, &problem.coupling.owners)),
         }
     }
 

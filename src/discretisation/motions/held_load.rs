@@ -5,7 +5,6 @@ use crate::body::MeanHold;
 use crate::contact;
 use crate::discretisation::levels::Discretisation;
 use crate::geometry::{Point, cross};
-use crate::petsc::Session;
 
 /// What a mean motion is held against.
 pub struct HeldLoad<'a> {
@@ -19,17 +18,12 @@ pub struct HeldLoad<'a> {
 
 /// For each force that a mean motion is held against what the forces of all contacts would change by without that hold, and the sums of
 /// all that would press more or less there: nothing if the other supports and closed contact do not resist it. **Collective**
-pub fn forces_without_holds(
-    problem: &Discretisation,
-    active: &[bool],
-    loads: &[HeldLoad],
-    session: &Session,
-) -> Vec<Option<Vec<[f64; 2]>>> {
+pub fn forces_without_holds(problem: &Discretisation, active: &[bool], loads: &[HeldLoad]) -> Vec<Option<Vec<[f64; 2]>>> {
     if loads.is_empty() {
         return Vec::new();
     }
     let (scene, extents) = (&problem.scene, problem.scene.extents());
-    let touches = Restraints::of(problem, session).touches(&extents, active);
+    let touches = Restraints::of(problem).touches(&extents, active);
     let springs = spring_conditions(scene, &extents, FIRM);
     let changed = |HeldLoad { hold, force, moment }: &HeldLoad| {
         let piece = scene.mesh.pieces.iter().position(|piece| scene.mesh.bodies[piece.body] == hold.body)?;

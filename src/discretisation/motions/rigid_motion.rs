@@ -7,7 +7,6 @@ use crate::discretisation::motions::mean_force::settle_means;
 use crate::discretisation::solution::Solution;
 use crate::discretisation::space::Space;
 use crate::geometry::Point;
-use crate::petsc::Session;
 use nalgebra::{Matrix3, Vector3};
 
 /// Eigenvalues below this share of the largest are none: a set that is one point does not turn.
@@ -18,12 +17,12 @@ const FLAT: f64 = 1e-12;
 ///
 /// # Errors
 /// [`SystemError`] from PETSc or an inverted triangle.
-pub fn settle(problem: &mut Discretisation, solution: &Solution, session: &Session) -> Result<(), SystemError> {
+pub fn settle(problem: &mut Discretisation, solution: &Solution) -> Result<(), SystemError> {
     let displacement = &solution.displacement;
     if !problem.scene.means.is_empty() {
-        settle_means(problem, solution, session)?;
+        settle_means(problem, solution)?;
     }
-    let motions = rigid_motions(problem, displacement, session);
+    let motions = rigid_motions(problem, displacement);
     let finest = problem.spaces.len() - 1;
     let Space { constraints, numbering, .. } = &mut problem.spaces[finest];
     for (set, motion) in problem.scene.rigid.iter().zip(&motions) {
@@ -34,7 +33,7 @@ pub fn settle(problem: &mut Discretisation, solution: &Solution, session: &Sessi
 
 /// Motion of every rigid set of the scene, from this rank's displacements in the nodes' frames, those that are prescribed
 /// included: the components that are free by least squares, which are exact, the others as they are prescribed. **Collective**
-pub fn rigid_motions(problem: &Discretisation, displacement: &[f64], session: &Session) -> Vec<Motion> {
+pub fn rigid_motions(problem: &Discretisation, displacement: &[f64]) -> Vec<Motion> {
     let (mesh, space) = (&problem.scene.mesh, problem.finest());
     let mut motions = Vec::new();
     for set in &problem.scene.rigid {
@@ -54,7 +53,7 @@ pub fn rigid_motions(problem: &Discretisation, displacement: &[f64], session: &S
                 free.iter().for_each(|&k| sums[3 * j + k] += scale[k] * mode.dot(&set.mode(k, x)));
             }
         }
-        session.sum(&mut sums);
+        problem.session.sum(&mut sums);
         let gram = Matrix3::from_row_slice(&sums[..9]);
         let inverse = gram.pseudo_inverse(FLAT * gram.amax()).unwrap_or_default();
         let found = inverse * Vector3::from_row_slice(&sums[9..]);

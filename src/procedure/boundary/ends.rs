@@ -26,9 +26,12 @@ const STAYS: f64 = 0.75;
 /// An end of Γ_C lies at the end of a body if less than this share of an edge is between them.
 const AT_THE_END: f64 = 1e-2;
 
-/// What the secant makes of a finding at most: of an end that is found as far off as before, beyond a segment that does not tell how far
-/// contact goes on, too. A head that presses on a flange from its one edge to the other had its end a twentieth farther with each fit.
+/// What the secant makes of a finding at most: of an end that is found a segment off again and again, too. A head that presses on a flange
+/// from its one edge to the other had its end a twentieth of its width farther with each fit.
 const MOST_STRETCH: f64 = 4.0;
+
+/// Share of a segment up to which it tells how far off its end is.
+const WHOLE: f64 = 0.99;
 
 /// Error of an end by the segment beside it, as a share of that segment's length.
 pub const OF_A_SEGMENT: f64 = 0.025;
@@ -79,8 +82,10 @@ pub fn free_ends(pressure: &ContactPressure, history: &mut [FoundEnd; 2], least:
         };
         let off = boundary.parameter_at(arc) - now[k];
         let slope = history[k].filter(|(before, _)| now[k] != *before).map(|(before, was)| (off - was) / (now[k] - before));
-        let creeps =
-            slope.is_some_and(|slope| slope >= -1.0 / MOST_STRETCH) && history[k].is_some_and(|(_, was)| off * was > 0.0);
+        // A segment tells of an end that lies farther than that no more than that it does.
+        let outer = if k == 0 { 0 } else { boundary.segments() - 1 };
+        let is_farther = outwards * (arc - boundary.arcs()[outer + k]) >= WHOLE * boundary.segment_length(outer);
+        let creeps = is_farther && slope.is_some_and(|slope| slope >= -1.0 / MOST_STRETCH);
         history[k] = Some((now[k], off));
         let within = |end: f64| if k == 0 { end.max(contact.limits[0]) } else { end.min(contact.limits[1]) };
         next[k] = match slope {

@@ -106,7 +106,7 @@ impl Procedure<'_> {
         let known = with_touch(&scene, numbering, drawn);
         let contacts = Contact::all_again(&scene, numbering, self.session.rank(), &known, &|_| Point::zeros())?;
         let problem = Discretisation::with(scene, spaces, contacts, BoundaryMotion::default(), self.session)?;
-        let free = not_held(&problem, &vec![true; problem.multiplier_count()], self.session);
+        let free = not_held(&problem, &vec![true; problem.multiplier_count()]);
         let problem = Box::new(problem);
         Ok(match free {
             Some(words) => Begun::Free(problem, words),

@@ -101,7 +101,7 @@ impl OneMesh<'_> {
         let history = MeshHistory { passes, boundaries: Vec::new(), ascended, preconditioning: system.preconditioning() };
         let solver = system.solver_name().to_string();
         drop(system);
-        settle(problem, &solution, self.procedure.session)?;
+        settle(problem, &solution)?;
         Ok(OnMesh { solution, ending, solver, history })
     }
 
@@ -124,7 +124,7 @@ impl OneMesh<'_> {
             match after {
                 After::Ended(ending) => {
                     problem.contacts.iter_mut().zip(following.found).for_each(|(contact, ends)| contact.found = Some(ends));
-                    settle(problem, &solution, self.procedure.session)?;
+                    settle(problem, &solution)?;
                     return Ok(OnMesh { solution, ending, solver, history });
                 }
                 After::Moved { contacts, motion, start: next, is_near } => {
@@ -156,11 +156,11 @@ impl OneMesh<'_> {
 
     /// Assembles and sets up what all contact boundaries share. **Collective**
     fn bodies(&self, problem: &Discretisation) -> Result<Bodies, SystemError> {
-        let Procedure { choice, session, observer, .. } = self.procedure;
+        let Procedure { choice, observer, .. } = self.procedure;
         let mut bodies = Bodies { elastic: None, interpolations: Rc::new([]) };
         if problem.follows() {
             let _stage = observer.enter(Work::Assembly);
-            let load = load(problem, &nodal_forces(problem, session)?);
+            let load = load(problem, &nodal_forces(problem)?);
             bodies.elastic = Some(Elastic::alone(problem, load, choice.form())?);
         }
         if choice.form() == Form::Augmented {
@@ -183,7 +183,7 @@ impl OneMesh<'_> {
             match &bodies.elastic {
                 Some(elastic) => SaddlePoint::around(problem, elastic, choice.form())?,
                 None => {
-                    let load = load(problem, &nodal_forces(problem, session)?);
+                    let load = load(problem, &nodal_forces(problem)?);
                     SaddlePoint::new(problem, load, choice.form())?
                 }
             }

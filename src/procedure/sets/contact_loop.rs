@@ -200,9 +200,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         self.record(&solve, &state, next_set.as_ref());
         // Bodies that nothing drives and nothing holds have forces of rounding alone, by which sets change for ever.
         let is_first = self.position.passes == 0 && self.passes.len() == 1;
-        if let Some(words) =
-            is_first.then(|| adrift(self.system.problem(), self.system.active(), &self.system.problem().session)).flatten()
-        {
+        if let Some(words) = is_first.then(|| adrift(self.system.problem(), self.system.active())).flatten() {
             return Ok(Next::End(Ending::NotConverged(Failure::NotHeld(words))));
         }
         Ok(match next_set {
@@ -256,13 +254,13 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         let told = state.told_from(problem, doubt);
         let force = |i: usize| told.force(i);
         let change = if self.set.ascends() { self.set.ascend(&told.found()) } else { self.set.update(force) };
-        let lost = not_held(problem, self.set.active(), &problem.session);
+        let lost = not_held(problem, self.set.active());
         let is_new = matches!(change, SetChange::Changed { .. }) || self.set.ascends() && change == SetChange::Repeated;
         if lost.is_none() || self.kept == MOST_KEPT || !is_new {
             return NextSet { change, lost };
         }
         self.kept += 1;
-        let few = few_that_hold(problem, self.set.active(), force, &problem.session);
+        let few = few_that_hold(problem, self.set.active(), force);
         NextSet { change: self.set.keep(&few, self.system.active()), lost: None }
     }
 

@@ -49,8 +49,8 @@ fn gaps(system: &System, displacement: &[f64]) -> Vec<f64> {
 /// Closes what has the smallest gap, with the bodies displaced, until all are held or all is closed. **Collective**
 fn hold(system: &System, displacement: &[f64], active: &mut [bool]) {
     let problem = system.problem();
-    if not_held(problem, active, &problem.session).is_some() {
+    if not_held(problem, active).is_some() {
         let gap = gaps(system, displacement);
-        few_that_hold(problem, active, |i| -gap[i], &problem.session).into_iter().for_each(|i| active[i] = true);
+        few_that_hold(problem, active, |i| -gap[i]).into_iter().for_each(|i| active[i] = true);
     }
 }

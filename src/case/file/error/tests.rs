@@ -15,9 +15,11 @@ fn a_bad_file_is_named() {
 }
 
 #[test]
-fn a_number_with_a_comma_is_told() {
+fn numbers_that_toml_does_not_read_are_told() {
     for (text, words) in [
         ("[body.a]\nyoung = 7000,0\n", "line 2, column 13: a number has a dot, not a comma; write 7000.0; "),
+        ("poisson = .3", "line 1, column 11: a number has digits before and behind its dot; write 0.5 and 2.0; "),
+        ("x = -1.e5", "line 1, column 8: a number has digits before and behind its dot; write 0.5 and 2.0; "),
         ("x = -0,25", "line 1, column 7: a number has a dot, not a comma; write 0.25; "),
         ("x = 2,1e5", "line 1, column 6: a number has a dot, not a comma; write 2.1e5; "),
     ] {
