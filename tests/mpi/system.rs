@@ -367,9 +367,9 @@ fn the_solution_does_not_know_the_sets_before(session: &Session) {
 
 /// The second of two sweeps behind a factor had that one's package and no kind of its own, which PETSc refuses on one rank.
 fn a_factor_leaves_nothing_behind_for_the_solvers_after_it(session: &Session) {
-    use Preconditioning::{Factor, Sweep, TwoSteps};
+    use Preconditioning::{Factor, Steps, Sweep};
     let problem = &problems(session)[0];
-    let pressures = [Factor, Sweep, TwoSteps, Sweep, Factor, Sweep].map(|first| {
+    let pressures = [Factor, Sweep, Steps, Sweep, Factor, Sweep].map(|first| {
         let (mut system, _) = system_from(problem, SolverChoice::FieldSplit, first);
         assert_eq!(system.solve(1e-11).expect("a solve").ending, LinearEnding::Converged);
         system.pressures()
