@@ -170,6 +170,24 @@ fn a_study_that_a_signal_ends_keeps_what_is_made() {
     assert_eq!(hidden, 0);
 }
 
+/// Somebody takes the folder away that a run writes to: the result goes to the working directory, and is named.
+#[test]
+fn a_result_whose_folder_is_gone_finds_another_one() {
+    for ranks in [None, Some(2)] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let child = start(folder.path(), ranks, &(long_run("out/result") + " --set output.fields=false"));
+        wait_until(|| all_names(folder.path()).iter().any(|name| name.starts_with(".result.")));
+        std::fs::remove_dir_all(folder.path().join("out")).expect("a folder that can be removed");
+        let (code, errors) = end(child);
+        assert!(code == Some(1) && errors.contains("not lost: the result is in `mezha-result-"), "{code:?}: {errors}");
+        let names = names_in(folder.path());
+        let place = folder.path().join(names.iter().find(|name| name.starts_with("mezha-result-")).expect("a result"));
+        let summary = std::fs::read_to_string(place.join("summary.json")).expect("a summary");
+        assert!(summary.contains("\"status\": \"converged\"") && place.join("contacts.csv").is_file(), "{summary}");
+        assert_eq!(names.len(), 1, "{names:?}");
+    }
+}
+
 fn all_names(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let of = |entry: std::fs::DirEntry| {

@@ -40,7 +40,7 @@ pub enum OutputError {
         source: Box<OutputError>,
     },
     /// The result is whole, and in another place than it was meant for.
-    #[error("{source}; nothing is lost: the result is in `{}`", place.display())]
+    #[error("{source}; what is solved is not lost: the result is in `{}`", place.display())]
     Elsewhere {
         /// The folder of the result.
         place: PathBuf,

@@ -103,6 +103,20 @@ impl ResultFolder {
         Summary { files, ..summary.clone() }.write(&self.path(SUMMARY))
     }
 
+    /// The same result under construction in another place, with all files that there are so far.
+    ///
+    /// # Errors
+    /// As [`ResultFolder::create`]; the operating system refuses.
+    pub fn begin_elsewhere(&self, out: &Path) -> Result<Self, OutputError> {
+        let other = Self::create(out, false)?;
+        for name in names_within(&self.temporary).unwrap_or_default() {
+            let to = other.path(&name);
+            let made = to.parent().map_or(Ok(()), fs::create_dir_all);
+            made.and_then(|()| fs::copy(self.path(&name), &to)).map_err(OutputError::io("write", &to))?;
+        }
+        Ok(other)
+    }
+
     /// If this file is one of the result that is to be replaced, it stays.
     pub fn keep(&mut self, file: &Path) {
         let inside = |folder: PathBuf| file.canonicalize().ok()?.strip_prefix(folder).ok().map(Path::to_path_buf);

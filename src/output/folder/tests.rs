@@ -178,7 +178,7 @@ fn a_result_that_is_refused_is_kept_elsewhere() {
     write_case(&folder, "second");
     let refusal = folder.elsewhere(OutputError::io("make", &out)(std::io::ErrorKind::ResourceBusy.into())).unwrap_err();
     let OutputError::Elsewhere { place, .. } = &refusal else { panic!("{refusal}") };
-    assert!(case_in(place) == "second" && refusal.to_string().contains("nothing is lost"), "{refusal}");
+    assert!(case_in(place) == "second" && refusal.to_string().contains("not lost: the result is in"), "{refusal}");
     assert_eq!((case_in(&out), names(root.path()).len()), ("first".into(), 2));
 }
 

@@ -2,7 +2,7 @@
 
 use super::figures::Shown;
 use crate::output::summary::{ContactSummary, EstimateSummary, Status, Summary, listed};
-use crate::output::{CONTACTS, RunError, contacts_table, write_text};
+use crate::output::RunError;
 use crate::procedure::{Solved, Work};
 use crate::recovery::Evaluation;
 use crate::run::summary::bodies::largest_stresses;
@@ -47,9 +47,8 @@ impl Run<'_> {
         let summary = Summary { accuracy, status, ..summary };
         let mut summary = Summary { reason: Some(reason + &remarks(&summary)), ..summary };
         summary.times_thickness(self.case.thickness);
-        if !summary.contact.is_empty() {
-            let contacts: Vec<_> = self.case.contacts.iter().map(|pair| (pair.name.as_str(), &pair.between)).collect();
-            self.on_first(|| write_text(&self.files.join(CONTACTS), &contacts_table(&contacts, &summary)))?;
+        if self.session.rank() == 0 && !summary.contact.is_empty() {
+            self.spare(self.write_contact_table(&self.files, &summary));
         }
         Ok(summary)
     }

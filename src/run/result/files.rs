@@ -6,14 +6,14 @@ use crate::discretisation::Contact;
 use crate::mesh::MacroMesh;
 use crate::output::report::{ReportPage, write_report};
 use crate::output::summary::{Status, Summary};
-use crate::output::{OutputError, ResultFolder, RunError, contact_table, vtk, write_text};
+use crate::output::{CONTACTS, OutputError, ResultFolder, RunError, contact_table, contacts_table, vtk, write_text};
 use crate::recovery::TracePoint;
 use crate::run::Run;
 use crate::run::accuracy::ADAPTED_MESH;
 use crate::run::telling::report::memory;
 use crate::run::telling::{interruption, progress};
 use crate::run::verdict::exact::expected_values;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 impl Run<'_> {
     /// Writes what tells the whole result, and prints the verdict. **Collective**
@@ -22,8 +22,13 @@ impl Run<'_> {
         let provenance = Some(self.origin.provenance.clone());
         let summary = Summary { time_s, memory_mib: memory(self.session), provenance, ..summary };
         let mut left_out = Vec::new();
-        let finished =
-            interruption::finish(|folder, warnings| self.put_in_place(&summary, mesh, folder, (warnings, &mut left_out)));
+        let finished = interruption::finish(|folder, warnings| {
+            let mut write = |folder: &ResultFolder| self.write_whole(&summary, mesh, folder, (warnings, &mut left_out));
+            match write(&folder) {
+                Err(refusal @ OutputError::Io { .. }) => self.put_elsewhere(&folder, refusal, write),
+                written => written.and_then(|()| folder.commit()),
+            }
+        });
         left_out.into_iter().for_each(|refusal| self.spare(Err(refusal)));
         let overtaken = self.session.any(matches!(finished, Err(OutputError::Overtaken(_) | OutputError::Elsewhere { .. })));
         let kind = if overtaken { RunError::Overtaken } else { RunError::Failed };
@@ -37,17 +42,42 @@ impl Run<'_> {
         Ok(summary.status)
     }
 
-    /// Writes what tells a whole result, with the mesh if it was adapted, and puts the folder in its place. What is `left_out` can be
-    /// told when nobody holds the folder any more.
-    fn put_in_place(
+    /// Puts the result in another place, where the folder refuses what it cannot do without: nothing that is solved is lost. The working
+    /// directory comes first, since what is for temporary files may be gone when a job ends.
+    fn put_elsewhere(
+        &self,
+        folder: &ResultFolder,
+        refusal: OutputError,
+        mut write: impl FnMut(&ResultFolder) -> Result<(), OutputError>,
+    ) -> Result<(), OutputError> {
+        let name = self.options.out.file_name().unwrap_or_default().to_string_lossy();
+        let name = format!("mezha-{name}-{}", std::process::id());
+        let mut put = |place: &PathBuf| {
+            let other = folder.begin_elsewhere(place)?;
+            write(&other)?;
+            other.commit()
+        };
+        let mut places = [PathBuf::new(), std::env::temp_dir()].map(|parent| parent.join(&name)).into_iter();
+        match places.find(|place| put(place).is_ok()) {
+            Some(place) => Err(OutputError::Elsewhere { place, source: Box::new(refusal) }),
+            None => Err(refusal),
+        }
+    }
+
+    /// Writes what tells a whole result, with the mesh if it was adapted. What is `left_out` can be told when nobody holds the folder any
+    /// more.
+    fn write_whole(
         &self,
         summary: &Summary,
         mesh: &MacroMesh,
-        folder: ResultFolder,
+        folder: &ResultFolder,
         (warnings, left_out): (&[String], &mut Vec<OutputError>),
     ) -> Result<(), OutputError> {
         progress::write_files();
-        self.origin.write(&folder)?;
+        self.origin.write(folder)?;
+        if !summary.contact.is_empty() && !folder.path(CONTACTS).exists() {
+            self.write_contact_table(folder.temporary(), summary)?;
+        }
         if self.case.output.fields {
             let contacts = self.case.contacts.iter().map(|pair| (pair.name.clone(), figures::sides(mesh, pair)));
             let (contacts, expected): (Vec<_>, _) = (contacts.collect(), expected_values(self.case, summary));
@@ -59,8 +89,13 @@ impl Run<'_> {
             let own = mesh.without_tools(|name| self.case.tool_of(name).is_some());
             left_out.extend(write_text(&folder.path(ADAPTED_MESH), &own.to_gmsh()).err());
         }
-        folder.write_summary(summary)?;
-        folder.commit()
+        folder.write_summary(summary)
+    }
+
+    /// Writes the table of all contacts.
+    pub(super) fn write_contact_table(&self, folder: &Path, summary: &Summary) -> Result<(), OutputError> {
+        let contacts: Vec<_> = self.case.contacts.iter().map(|pair| (pair.name.as_str(), &pair.between)).collect();
+        write_text(&folder.join(CONTACTS), &contacts_table(&contacts, summary))
     }
 
     /// A warning for a file that could not be written, and that the result can do without.

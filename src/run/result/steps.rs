@@ -95,7 +95,7 @@ impl Run<'_> {
     /// Writes what tells all steps: the table, the figure, and the series of fields and contacts.
     fn write_series(&self, rows: &[StepSummary]) -> Result<(), OutputError> {
         let files = &self.files;
-        write_text(&files.join("steps.csv"), &steps_table(rows))?;
+        self.spare(write_text(&files.join("steps.csv"), &steps_table(rows)));
         let count = rows.len();
         let names: Vec<&String> = self.case.contacts.iter().map(|pair| &pair.name).collect();
         let last = files.join(folder(count));
