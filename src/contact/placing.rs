@@ -1,5 +1,7 @@
 //! Γ_C of a pair, placed between two boundaries of the mesh and cut by the pair's rule.
 
+mod looking;
+
 use super::contact_boundary::ContactBoundary;
 use super::cutting::fractions;
 use super::pair::{Configuration, CurveChoice, Pair, SegmentRule};
@@ -8,6 +10,8 @@ use super::smooth_side::{Displacement, SmoothSide};
 use crate::contact::fit::{Meeting, PointContact, stray};
 use crate::geometry::{Coordinates, Curve, Point};
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering};
+pub use looking::faces;
+use looking::leave_what_looks_at;
 
 /// What is known of a contact boundary from the last time it was placed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -88,9 +92,10 @@ pub fn place(
     let mut boundary = ContactBoundary::new(curve, range, nearest.outward()).in_plane(mesh.plane);
     check_grading(pair, &boundary)?;
     if pair.curve.is_found() {
-        let [of_first, of_second] = &mut edges;
-        of_first.retain(|edge| lies_at(&boundary, Side::First, edge));
-        of_second.retain(|edge| lies_at(&boundary, Side::Second, edge));
+        [Side::First, Side::Second]
+            .into_iter()
+            .zip(&mut edges)
+            .for_each(|(side, edges)| leave_what_looks_at(&boundary, side, edges));
     } else {
         check_cover(mesh, pair, sides, &boundary)?;
     }
@@ -100,12 +105,6 @@ pub fn place(
     }
     Ok(Placed { boundary, limits, meeting: fitted.map(|(meeting, _)| meeting), edges })
 }
-
-/// Sine of the angle between the way to a foot and the normal there above which it is none.
-const NO_FOOT: f64 = 1e-4;
-
-/// The foot of the middle of an edge lies between those of its ends but for this share of their distance.
-const NOT_BETWEEN: f64 = 0.25;
 
 /// Segments to an edge at most: shorter ones tell nothing, and their active set changes one by one.
 const MOST_TO_AN_EDGE: usize = 32;
@@ -328,46 +327,6 @@ pub fn all_edges(mesh: &MacroMesh, numbering: &Numbering, pair: &Pair, displacem
             Configuration::Deformed => all.map(|edge| edge.moved(displacement)).collect(),
         }
     })
-}
-
-/// Whether an edge looks at a part of Γ_C, not beside it. On a large body most do not, which few looks tell.
-fn lies_at(boundary: &ContactBoundary, side: Side, edge: &BoundaryEdge) -> bool {
-    let middle = 0.5 * (edge.points[0] + edge.points[1]);
-    let [first, last] = boundary.ends();
-    let near = boundary.near(middle);
-    if edge.outward().dot(&boundary.normal(near)) * side.sign() < LOOKS_AWAY {
-        return false;
-    }
-    let beyond = (middle - boundary.point(near)).dot(&boundary.tangent(near));
-    let is_open = boundary.period().is_none();
-    if is_open && (near <= first && beyond < -edge.length() || near >= last && beyond > edge.length()) {
-        return false;
-    }
-    let is_within = |[from, to]: [f64; 2]| from < last && to > first;
-    faces(boundary, side, edge) && boundary.parts([edge.points[0], edge.points[1]]).any(is_within)
-}
-
-/// Cosine of the angle between the normals of an edge and of Γ_C about its foot, below which the foot itself tells nothing else.
-const LOOKS_AWAY: f64 = -0.5;
-
-/// Whether an edge looks at Γ_C: what lies behind a body does not touch. Neither does what has no foot on it: from the far side of
-/// a closed body the search for the nearest point of a short Γ_C may end anywhere, and the two ends of an edge there may have
-/// their feet beyond both ends of Γ_C.
-pub fn faces(boundary: &ContactBoundary, side: Side, edge: &BoundaryEdge) -> bool {
-    let middle = 0.5 * (edge.points[0] + edge.points[1]);
-    let foot = boundary.foot(middle);
-    let (normal, away) = (boundary.normal(foot), middle - boundary.point(foot));
-    if edge.outward().dot(&normal) * side.sign() <= 0.0 {
-        return false;
-    }
-    // Far from the origin coordinates lose digits.
-    let rounding = 1e-9 * edge.length() + 16.0 * f64::EPSILON * middle.amax();
-    let is_foot = crate::geometry::cross(away, normal).abs() <= NO_FOOT * away.norm() + rounding;
-    let [from, to] = boundary.feet([edge.points[0], edge.points[1]]);
-    let off = foot - 0.5 * (from + to);
-    let turns = boundary.period().map_or(0.0, |period| (off / period).round() * period);
-    let is_between = (off - turns).abs() <= NOT_BETWEEN * (to - from);
-    is_foot && is_between
 }
 
 #[cfg(test)]

@@ -199,6 +199,26 @@ fn edges_that_look_away_from_the_boundary_do_not_face_it() {
     }
 }
 
+/// Faces of one boundary, one behind the other, as those of two teeth of a gear: the one behind was taken for a part of the contact,
+/// whose forces on the two bodies differed by all of one.
+#[test]
+fn what_lies_behind_another_edge_is_left_out() {
+    let mesh = two_blocks();
+    let partition = Rc::new(Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1));
+    let numbering = Numbering::new(Level { intervals: 2, order: Order::P1 }, &partition);
+    let boundary = ContactBoundary::new(Curve::Line([[0.0, 1.0], [2.0, 1.0]]), [0.1, 0.9], Point::new(0.0, 1.0));
+    let edges_of = |name: &str| {
+        let edges = &mesh.boundary(name).expect("named").edges;
+        edges.iter().flat_map(|&edge| BoundaryEdge::all_of(&mesh, edge, &numbering)).collect::<Vec<_>>()
+    };
+    for names in [["lower.seam", "top"], ["top", "lower.seam"]] {
+        let mut edges = names.map(edges_of).concat();
+        leave_what_looks_at(&boundary, Side::First, &mut edges);
+        assert_eq!(edges.len(), edges_of("lower.seam").len(), "{names:?}");
+        assert!(edges.iter().all(|edge| edge.points[0].y == 1.0), "{names:?}");
+    }
+}
+
 /// The outline of the lower block around a circle in its middle, whole and with an edge left out, for a part of it and for all.
 #[test]
 fn a_closed_boundary_needs_edges_all_around() {

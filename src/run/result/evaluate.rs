@@ -1,8 +1,8 @@
 //! A solution made into a summary, with its files, its status and its reason.
 
 use super::figures::Shown;
-use crate::output::summary::{ContactSummary, EstimateSummary, Status, Summary, listed};
 use crate::output::RunError;
+use crate::output::summary::{ContactSummary, EstimateSummary, Status, Summary, listed};
 use crate::procedure::{Solved, Work};
 use crate::recovery::Evaluation;
 use crate::run::summary::bodies::largest_stresses;

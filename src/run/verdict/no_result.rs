@@ -13,7 +13,8 @@ pub const NO_NUMBERS: &str =
 
 /// Why a run has not converged though its solve has ended well; nothing if it may stand.
 pub fn no_result(summary: &Summary, case: &Case) -> Option<String> {
-    no_number(summary).or_else(|| not_in_balance(summary, case)).or_else(|| passed_through(summary))
+    let unequal = || unequal_sides(summary);
+    no_number(summary).or_else(|| not_in_balance(summary, case)).or_else(unequal).or_else(|| passed_through(summary))
 }
 
 /// Values that are no numbers.
@@ -27,6 +28,15 @@ fn not_in_balance(summary: &Summary, case: &Case) -> Option<String> {
     let off = out_of_balance(summary, case).filter(|off| *off > OUT_OF_BALANCE)?;
     Some(format!(
         "the forces on a body are out of balance by {} of their sum: a contact beside a mean motion that is held leaves the body free to move; hold it by a support, or leave out what contact holds already",
+        short(off)
+    ))
+}
+
+/// A contact whose forces on its two bodies are far from each other: one of them is not where its boundary is.
+fn unequal_sides(summary: &Summary) -> Option<String> {
+    let off = summary.balance.force.filter(|off| *off > OUT_OF_BALANCE)?;
+    Some(format!(
+        "the forces of a contact on its two bodies differ by {} of each other: the bodies do not face each other all along its boundary; give what does a name and a contact of its own",
         short(off)
     ))
 }
@@ -91,6 +101,15 @@ mod tests {
         };
         assert_eq!((told(0.03, 1.0), told(0.5, 1e-20)), (None, None));
         assert!(told(0.5, 1.0).is_some_and(|words| words.contains("out of balance by 0.50")));
+    }
+
+    #[test]
+    fn a_contact_that_presses_one_body_more_is_no_result() {
+        let mut summary = Summary::default();
+        summary.balance.force = Some(0.03);
+        assert_eq!(no_result(&summary, &case(&[])), None);
+        summary.balance.force = Some(0.43);
+        assert!(no_result(&summary, &case(&[])).is_some_and(|words| words.contains("differ by 0.43")));
     }
 
     #[test]
