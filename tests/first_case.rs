@@ -172,13 +172,24 @@ fn loads_are_those_that_names_and_the_drawing_tell() {
         std::fs::write(folder.path().join("mesh.msh"), mesh.text()).expect("a mesh can be written");
         std::fs::read_to_string(new_case(folder.path(), "mesh.msh")).expect("a case")
     };
-    let text = new(0.95, ["bottom", "right", "upper.end"]);
+    let text = new(0.95, ["bottom", "right", "gripTop"]);
     assert!(
         text.contains("# Bodies are drawn into each other: that interference is the load.") && text.contains("0.05 into each")
     );
     assert!(!text.lines().any(|line| line.starts_with("[load.") || line.starts_with("body_force")), "{text}");
     // However deep they do.
-    assert!(new(0.6, ["bottom", "right", "upper.end"]).contains("0.4 into each"));
+    assert!(new(0.6, ["bottom", "right", "gripTop"]).contains("0.4 into each"));
+    // A body that its interference pushes off without a load is pressed as well, and `check` says so of a case that has none.
+    let text = new(0.95, ["bottom", "right", "upper.end"]);
+    assert!(text.contains("\n[load.upper-end]") && text.contains("0.05 into each"), "{text}");
+    let (bare, _) = text.split_once("[load.").expect("a load");
+    let slides = "[support.slide]\nbody = \"upper\"\nmean = true\nux = 0.0\n";
+    std::fs::write(folder.path().join("bare.toml"), bare.to_owned() + slides).expect("a case can be written");
+    for command in ["check", "run"] {
+        let (code, output, errors) = mezha_in(folder.path(), None, &[command, "bare.toml"]);
+        assert_eq!(code, Some(3), "{output}{errors}");
+        assert!(errors.contains("body upper can move by (0, 1): interference drives it there"), "{command}: {errors}");
+    }
     let text = new(1.0, ["gripBelow", "bolt.pull", "upper.end"]);
     assert!(text.contains("# held: by its name") && text.contains("# pulled: by its name"), "{text}");
     assert!(text.lines().any(|line| line.starts_with("pressure = -")), "{text}");
@@ -190,9 +201,8 @@ fn loads_are_those_that_names_and_the_drawing_tell() {
     assert!(text.contains("# pressed: by its name") && text.contains("force = [0.0, -20.0]"), "{text}");
     assert!(text.contains("change no number\n# plane = \"axisymmetric\""), "{text}");
     // Beside an interference the load of a name is a comment, and each body is held that a name holds.
-    let text = new(0.95, ["bottom", "right", "load"]);
+    let text = new(0.95, ["bottom", "load", "gripTop"]);
     assert!(!text.contains("\n[load.") && text.contains("\n# [load.NAME]\n# on = \"load\"\n"), "{text}");
-    let text = new(0.95, ["bottom", "right", "gripTop"]);
     assert_eq!(text.matches("# held: by its name").count(), 2, "{text}");
     // If all are held nothing would act.
     let text = new(1.0, ["foot", "right", "axle"]);
@@ -485,7 +495,12 @@ fn nothing_that_acts_is_told() {
         assert_eq!(meshes, 1, "{}", ended.said());
     }
     for (key, value) in [("contact.seam.gap", "-1e-3"), ("support.table.uy", "1e-3"), ("load.top.pressure", "1.0")] {
-        let words = ["check".into(), file.display().to_string(), "--set".into(), format!("{key}={value}")];
+        let mut words = vec!["check".into(), file.display().to_string(), "--set".into(), format!("{key}={value}")];
+        if key == "contact.seam.gap" {
+            // Else it pushes the upper body off.
+            words.extend(["--set".into(), "support.roof={ on = \"top\", uy = 0.0 }".into()]);
+        }
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
         let (code, _, errors) = mezha(None, &words);
         assert!(code == Some(0) && !errors.contains("nothing loads"), "{key}: {errors}");
     }

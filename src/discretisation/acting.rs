@@ -15,6 +15,11 @@ impl Scene {
         is_loaded(self) || self.is_moved() || self.pairs.iter().any(|pair| interferes(self, numbering, pair))
     }
 
+    /// Whether nothing but interference can press its bodies.
+    pub fn is_left_to_interference(&self) -> bool {
+        !is_loaded(self) && !self.is_moved()
+    }
+
     /// Whether supports, means or rigid sets move bodies.
     pub fn is_moved(&self) -> bool {
         let by_support = self.supports.iter().flat_map(|support| [&support.ux, &support.uy, &support.normal]).flatten().any(acts);

@@ -12,7 +12,7 @@ mod kernel;
 use self::elimination::Elimination;
 use crate::body::{Applied, BodyPart, Load, MeanHold, PointLoad, applied_forces, body_forces, rigid_displacement};
 use crate::contact::{Programme, ProgrammeOutcome, Side, added_up, describe_motion};
-use crate::discretisation::{Contact, Coupled, Scene, SystemError, bilateral, coupled_here};
+use crate::discretisation::{BY_ROUNDING, Contact, Coupled, Scene, SystemError, bilateral, coupled_here};
 use crate::geometry::{Formula, Point};
 use crate::mesh::Numbering;
 use std::slice::from_ref;
@@ -46,6 +46,9 @@ pub struct FoundByProgramme {
     /// Mean gap over each multiplier (length).
     pub gaps: Vec<f64>,
 }
+
+/// Strain by that which pressing an overlap flat would take, below which nothing presses: what the programme leaves is 1e-8 of it.
+const NO_STRAIN: f64 = 1e-6;
 
 /// Entries of a row on the unknowns of one block.
 type UnknownForces = Vec<(usize, f64)>;
@@ -100,6 +103,9 @@ impl<'s> Predictor<'s> {
         let programme = self.programme(contacts, &rows, &right, pushes);
         Ok(match programme.solve() {
             ProgrammeOutcome::Found { multipliers, gaps, motions } => {
+                if self.scene.is_left_to_interference() && Self::pushes_off(contacts, &gap, &multipliers) {
+                    return self.driven(&motions, true);
+                }
                 let displacement = self.displacement(&rows, &multipliers, &motions);
                 let mut gaps = gaps[..gap.len()].to_vec();
                 for contact in contacts {
@@ -107,9 +113,23 @@ impl<'s> Predictor<'s> {
                 }
                 Prediction::Held(FoundByProgramme { displacement, pressures: multipliers[..gap.len()].to_vec(), gaps })
             }
-            ProgrammeOutcome::Driven(motion) => self.driven(&motion)?,
+            ProgrammeOutcome::Driven(motion) => self.driven(&motion, false)?,
             ProgrammeOutcome::Unsolved(words) => Prediction::Unknown(words),
         })
+    }
+
+    /// Whether contacts that overlap as they are drawn press nowhere: bodies have moved out of them.
+    fn pushes_off(contacts: &[Contact], gap: &[f64], multipliers: &[f64]) -> bool {
+        // The strain that presses by that which pressing the overlap flat would take.
+        let strain = |contact: &Contact| {
+            let mean = |i: usize| gap[i] / contact.multipliers.integral(i - contact.first);
+            let deepest = contact.range().map(mean).fold(0.0, f64::min);
+            let most = contact.range().map(|i| multipliers[i].abs()).fold(0.0, f64::max);
+            (-deepest > BY_ROUNDING * contact.boundary.length())
+                .then(|| most * contact.compliance * contact.boundary.length() / -deepest)
+        };
+        let mut overlapping = contacts.iter().filter_map(strain).peekable();
+        overlapping.peek().is_some() && overlapping.all(|strain| strain < NO_STRAIN)
     }
 
     /// The programme of some rows with their right-hand sides; those of contacts come first.
@@ -176,31 +196,40 @@ impl<'s> Predictor<'s> {
         (0..freedoms.count()).map(of_node).collect()
     }
 
-    /// The body that a motion moves most, and what drives it, in words.
-    fn driven(&self, motion: &[f64]) -> Result<Prediction, SystemError> {
+    /// The body that a motion moves most, and what drives it, in words: loads, or an interference that pushes it off.
+    fn driven(&self, motion: &[f64], is_pushed_off: bool) -> Result<Prediction, SystemError> {
         let of_block = |block: &elimination::EliminatedBlock| {
             block.kernel.moves_most(self.scene, &motion[block.first..block.first + block.kernel.len()])
         };
         let size = |moves: &[f64; 3]| moves.iter().map(|v| v * v).sum::<f64>();
         let most = self.elimination.blocks.iter().filter_map(of_block).max_by(|(_, a), (_, b)| size(a).total_cmp(&size(b)));
-        let Some((piece, moves)) = most else { return Ok(Prediction::Unknown("the loads do not come to balance".into())) };
+        let Some((piece, mut moves)) = most else { return Ok(Prediction::Unknown("the loads do not come to balance".into())) };
+        let turns = moves[2].abs() > moves[0].hypot(moves[1]);
+        if is_pushed_off && !turns {
+            // What is pushed off turns on its way as it may.
+            moves[2] = 0.0;
+        }
         let mechanism = describe_motion(piece, &self.scene.extents(), moves);
         let of_piece = &self.elimination.blocks[self.elimination.freedoms.block_of_piece[piece]];
         let own = &motion[of_piece.first..of_piece.first + of_piece.kernel.len()];
         let loads = self.loads_that_drive(self.elimination.freedoms.block_of_piece[piece], own)?;
-        let by = if loads.is_empty() { "what acts on it".into() } else { loads.join(", ") };
+        let by = match &loads[..] {
+            [] if is_pushed_off => "interference".into(),
+            [] => "what acts on it".into(),
+            loads => loads.join(", "),
+        };
         let drive = if loads.len() > 1 { "drive" } else { "drives" };
         let (name, body) = (self.scene.mesh.name_of_piece(piece), &self.scene.bodies[self.scene.mesh.pieces[piece].body].name);
         let motion = &mechanism.motion;
-        let turns = moves[2].abs() > moves[0].hypot(moves[1]);
         let hold = match turns {
             true => {
                 format!("hold its turn, in its mean say: [support.{body}] with mean = true, body = \"{body}\" and angle = 0.0")
             }
             false => "let a support on one of its boundaries, or at a point of it, carry what acts on it".into(),
         };
+        let turned = if is_pushed_off { "" } else { "turn the load round if it is meant to press the bodies together, or " };
         let words = format!(
-            "{name} can {motion}: {by} {drive} it there, and neither contact, which only pushes, nor a support holds it; turn the load round if it is meant to press the bodies together, or {hold}"
+            "{name} can {motion}: {by} {drive} it there, and neither contact, which only pushes, nor a support holds it; {turned}{hold}"
         );
         Ok(Prediction::Driven { words, turns })
     }

@@ -46,7 +46,12 @@ pub fn boolean(value: &Value) -> Result<bool, String> {
 /// A finite number.
 pub fn number(value: &Value) -> Result<f64, String> {
     let number = value.as_float().or(value.as_integer().map(|integer| integer as f64));
-    number.filter(|number| number.is_finite()).ok_or_else(|| must_be("a finite number", value))
+    // What is a number but for its quotes, its comma, or a digit that its dot lacks.
+    let meant =
+        value.as_str().and_then(|text| text.trim().replace(',', ".").parse().ok()).filter(|number: &f64| number.is_finite());
+    let refusal =
+        || meant.map_or_else(|| must_be("a finite number", value), |meant| format!("must be a finite number; write {meant:?}"));
+    number.filter(|number| number.is_finite()).ok_or_else(refusal)
 }
 
 /// A whole number that is not negative.

@@ -94,6 +94,9 @@ fn errors_of_bodies_and_of_their_weight_name_key_value_and_remedy() {
     assert_refused(&[
         ("body.a.young=0", "body.a.young = 0 (--set): must lie in [1e-100, 1e100]"),
         ("body.a.young=inf", "must be a finite number"),
+        ("body.a.poisson=0,3", "body.a.poisson = \"0,3\" (--set): must be a finite number; write 0.3"),
+        ("body.a.poisson=.3", "must be a finite number; write 0.3"),
+        ("body.a.young=\"2e5\"", "must be a finite number; write 200000.0"),
         ("body.a.young=soft", "body.a.young = \"soft\" (--set): must be a finite number, not of type string"),
         ("body.a.poisson=-1", "must lie in (-1, 0.5)"),
         (

@@ -66,6 +66,8 @@ pub struct Guesses<'a> {
     pub refused: Vec<(ClosePair, String)>,
     /// Bodies that lie close, though no named boundaries of theirs do.
     pub unnamed: Vec<[usize; 2]>,
+    /// Whether the interference of bodies that are drawn into each other loads them.
+    pub interference_loads: bool,
 }
 
 impl<'a> Guesses<'a> {
@@ -76,7 +78,7 @@ impl<'a> Guesses<'a> {
         curves.iter_mut().for_each(|curve| curve.is_touched |= tools.iter().any(|tool| tool.between[0] == curve.name));
         let is_known = |bodies: &[usize; 2]| pairs.iter().any(|pair| pair.bodies == *bodies);
         let unnamed = close_outlines(mesh).into_iter().filter(|bodies| !is_known(bodies)).collect();
-        Self { mesh, curves, pairs, tools, aside, refused: Vec::new(), unnamed }
+        Self { mesh, curves, pairs, tools, aside, refused: Vec::new(), unnamed, interference_loads: true }
     }
 
     /// Leaves out the pair or the tool of these names, in any order; says whether there is one.
@@ -171,7 +173,7 @@ impl<'a> Guesses<'a> {
 
     /// Whether bodies are drawn into each other: that interference is the load.
     pub fn is_pressed_in(&self) -> bool {
-        self.pairs.iter().any(|pair| pair.distance < 0.0 && pair.share() > DRAWN)
+        self.interference_loads && self.pairs.iter().any(|pair| pair.distance < 0.0 && pair.share() > DRAWN)
     }
 
     /// The axis along which a boundary is pushed: against its normal, or, if no contact of its body would feel that, into these; down if it

@@ -43,9 +43,12 @@ pub fn first_case(mesh_file: &Path, named: &str) -> Result<FirstCase, RunError> 
     if let Ok(case) = parse(&draft.text(named, Press::Nothing)) {
         measure(&mut draft.guesses.pairs, &case);
     }
-    // The first way of pressing that can be is taken; the last presses nothing. If none can be, the first is told with its words.
+    // The first way of pressing that can be is taken; the last presses nothing, and an interference that only pushes bodies off wants a
+    // load as well. If none can be, the first is told with its words.
     let mut failed = None;
-    for press in [Press::Plate, Press::Pressure, Press::Nothing] {
+    let presses = [Press::Plate, Press::Pressure, Press::Nothing];
+    for (interference_loads, press) in [true, false].into_iter().flat_map(|loads| presses.map(|press| (loads, press))) {
+        draft.guesses.interference_loads = interference_loads;
         loop {
             let text = draft.text(named, press);
             let supports = parse(&text).map(|case| proposed_supports(&case)).unwrap_or_default();

@@ -6,8 +6,7 @@ use crate::mesh::{Boundary, MacroMesh};
 use crate::run::checking::node_circle::NodeCircle;
 
 /// Words in names of boundaries that are held, loaded, those of them that are pulled, and of symmetry, with blanks between them.
-pub const HELD: &str =
-    "bottom base fixed fix clamp clamped ground floor foot foundation support wall root grip hold held mount anchor encastre";
+pub const HELD: &str = "bottom base fixed fix clamp clamped ground floor foot foundation support wall root grip hold held mount anchor encastre casing";
 pub const LOADED: &str = "top load loaded press pressed pressure force punch push piston pull pulled tension drag lift traction";
 pub const PULLED: &str = "pull pulled tension drag lift traction";
 const MIRRORED: &str = "symmetry sym symm mirror";

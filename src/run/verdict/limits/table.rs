@@ -96,7 +96,7 @@ pub static WITHIN_SEGMENTS: Limit = most((0.1, two, MoreSegments, "the bodies pe
 
 /// `zones[].cut_off`: λ where a zone is cut off, by its largest.
 pub static CUT_OFF: Limit = most((CUT, two,
-    Words("name what lies beyond in this contact, too, or give it a name and a contact of its own that begins there"),
+    Words("name what lies beyond in this contact, too, if it goes on as the same line or circle, or else give it a name and a contact of its own that begins there"),
     "contact goes on beyond the end of its boundary",
     "it presses up to an end of its boundary, with {value} of its largest λ there, and both bodies go on beyond"));
 
@@ -121,7 +121,7 @@ pub const TRUSTED_FORCE_ON_FEW: f64 = TRUSTED_FORCE / 5.0;
 
 /// `corner_error`: corners of a body within what presses, by what they do to λ.
 pub static CORNERS: Limit = most((0.04, short,
-    Words("if these are chords of a curve, give it by a [geometry]; if the corners are meant, name the pieces between them, each with a contact of its own"),
+    Words("give the curve by a [geometry] if these are chords of one, or, if the corners are meant, name the pieces between them, each with a contact of its own"),
     "a body has corners within the contact",
     "\"{first}\" or \"{second}\" has corners of up to {angle} degrees within the contact, which change λ by about {value}"));
 
@@ -129,7 +129,7 @@ pub static CORNERS: Limit = most((0.04, short,
 /// coordinates of six digits .13 and .031 where λ was up to .29 and .065 off, 1e-9 with sixteen; on a rounded punch whose flat and arcs
 /// are one curve .29, and .017 with chords a fifth as long, where the largest λ was .13 and .012 off.
 pub static SHAPE: Limit = most((0.04, short,
-    Words("give the shape by a [geometry]; write the mesh with all digits of its coordinates; give lines and arcs that go on as each other a name and a contact each, or finer edges where they meet"),
+    Words("give the shape by a [geometry], write the mesh with all digits of its coordinates, or give lines and arcs that go on as each other a name and a contact each, or finer edges where they meet"),
     "the nodes tell too little of a boundary's shape",
     "the nodes of \"{first}\" or \"{second}\" scatter, or the curvature jumps between them: λ is wrong by about {value} (relative), at most {limit} wanted"));
 
@@ -140,7 +140,7 @@ pub const OUT_OF_BALANCE: f64 = 0.1;
 
 /// `balance.force`: the forces of a contact on its two bodies: the pressure is off by their difference at least.
 pub static SIDE_BALANCE: Limit = most((0.01, two_digits,
-    Words("see lost_points: the bodies must face each other all along the boundary"),
+    Words("give what does face the other body all along a name and a contact of its own"),
     "forces on the two bodies differ", "forces on the two bodies differ by {value}, at most {bound} wanted"));
 
 /// Strain energy, by that of the softest body strained by the largest displacement over its length, below which bodies have moved

@@ -88,12 +88,16 @@ pub fn clauses(names: &[&str], verdicts: &BTreeMap<String, Verdict>, of: fn(&Ver
     let clause = |(cause, group): (String, Vec<(&str, &Objection)>)| {
         let remedy = group[0].1.remedy.as_ref().map_or(String::new(), |remedy| format!(": {remedy}"));
         let told = summary::alike(group.into_iter().map(|(name, objection)| (name.to_owned(), objection.words.as_str())));
-        let contact = |(name, words): &(String, Vec<&str>)| {
+        let said = |(name, words): &(String, Vec<&str>)| {
             let force = if verdicts[name].trust_force == Some(true) { ", whose force is to be trusted" } else { "" };
-            format!("contact {name} ({}){force}", words.join("; "))
+            (format!("({}){force}", words.join("; ")), name.clone())
         };
         let few = if is_many { 1 } else { told.len() };
-        let few = told.iter().take(few).map(contact).collect::<Vec<_>>().join(", ");
+        let alike = summary::alike(told.iter().take(few).map(said)).into_iter();
+        let contacts = |(words, names): (String, Vec<String>)| {
+            format!("contact{} {} {words}", if names.len() > 1 { "s" } else { "" }, names.join(", "))
+        };
+        let few = alike.map(contacts).collect::<Vec<_>>().join(", ");
         match told.len() {
             count if is_many && count > 1 => format!("{count} of {} contacts: {cause}, the worst {few}{remedy}", names.len()),
             _ => format!("{few}{remedy}"),
