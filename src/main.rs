@@ -11,6 +11,7 @@ use mezha::petsc::{
 };
 use mezha::run::{self, RunOptions, interruption};
 use mezha::study;
+use rustix::process::{Resource, getrlimit};
 use std::io::{ErrorKind, Write, stderr, stdout};
 use std::path::Path;
 use std::process::exit;
@@ -23,11 +24,19 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// with an error makes mpirun end all others.
 const PAUSE: Duration = Duration::from_secs(1);
 
+/// Bytes of the stack that starting takes: 64 kB overflow in MPI, 128 do.
+const LEAST_STACK: u64 = 128 << 10;
+/// Bytes of the files that the ranks of a host share their memory by.
+const LEAST_FILE: u64 = 4 << 20;
+
 #[global_allocator]
 static ALLOCATOR: TellingAllocator = TellingAllocator;
 
 fn main() {
     let started = Instant::now();
+    if let Some(words) = too_small_a_limit() {
+        exit(print_once(&RunError::Failed(words)));
+    }
     share_memory_among_threads();
     let arguments = Arguments::try_parse().unwrap_or_else(|error| exit(usage(&error)));
     let code = match arguments.command {
@@ -39,6 +48,17 @@ fn main() {
         Command::Info => info(),
     };
     exit(code)
+}
+
+/// Words for a limit of the shell's under which the libraries overflow, or wait for ever, before they could say so.
+fn too_small_a_limit() -> Option<String> {
+    let is_below = |limit, least| getrlimit(limit).current.filter(|bytes| *bytes < least);
+    let stack = is_below(Resource::Stack, LEAST_STACK).map(|bytes| ("stack", "s", bytes, LEAST_STACK));
+    let of_mpi = || given_rank().and_then(|_| is_below(Resource::Fsize, LEAST_FILE));
+    let (what, letter, bytes, least) = stack.or_else(|| of_mpi().map(|bytes| ("files of MPI", "f", bytes, LEAST_FILE)))?;
+    Some(format!(
+        "the {what} may have {bytes} bytes here, and {least} at least are wanted: say ulimit -{letter} unlimited in the shell that starts it"
+    ))
 }
 
 /// Prints help, or what is wrong with the command line, and gives the exit code.

@@ -188,7 +188,8 @@ fn loads_are_those_that_names_and_the_drawing_tell() {
     for command in ["check", "run"] {
         let (code, output, errors) = mezha_in(folder.path(), None, &[command, "bare.toml"]);
         assert_eq!(code, Some(3), "{output}{errors}");
-        assert!(errors.contains("body upper can move by (0, 1): interference drives it there"), "{command}: {errors}");
+        let said = output + &errors;
+        assert!(said.contains("body upper can move by (0, 1): interference drives it there"), "{command}: {said}");
     }
     let text = new(1.0, ["gripBelow", "bolt.pull", "upper.end"]);
     assert!(text.contains("# held: by its name") && text.contains("# pulled: by its name"), "{text}");

@@ -123,7 +123,7 @@ fn corners_within_a_contact_are_told_with_what_they_do() {
     assert_eq!(ended.value("/contact/seam/trust"), false);
     assert!((ended.number("/contact/seam/corner_angle") - 11.25).abs() < 0.1);
     assert!((0.04..0.1).contains(&ended.number("/contact/seam/corner_error")));
-    for words in ["has corners of up to 11 degrees within the contact", "give it by a [geometry]"] {
+    for words in ["has corners of up to 11 degrees within the contact", "give the curve by a [geometry]"] {
         assert!(ended.errors.contains(words), "{}", ended.errors);
     }
     assert!(!ended.said().contains("grows without bound"), "{}", ended.said());

@@ -62,7 +62,7 @@ fn pressing_places(points: &[TracePoint]) -> Vec<(&TracePoint, f64)> {
 fn slope_error_about(sides: &[Vec<NodedSide>; 2], pressing: &[(&TracePoint, f64)], without_mean: bool) -> f64 {
     let Some((middle, _)) = pressing.get(pressing.len() / 2) else { return 0.0 };
     let half = 0.5 * (pressing[pressing.len() - 1].0.arc - pressing[0].0.arc);
-    let node = sides.iter().filter_map(|side| Some(nearest(side, middle.x)?.node_distance(middle.x))).fold(0.0, f64::max);
+    let node = sides.iter().filter_map(|side| nearest(side, middle.x)?.node_distance(middle.x)).fold(0.0, f64::max);
     let squared = |share: f64| {
         let shift = share * (node - half).max(0.0);
         slope_error(sides.each_ref().map(|side| slope_errors(side, pressing, shift)), pressing, without_mean).powi(2)
@@ -120,10 +120,13 @@ impl<'c> NodedSide<'c> {
         })
     }
 
-    /// Distance of the nodes on either side of a point.
-    fn node_distance(&self, x: Point) -> f64 {
-        let after = self.nodes.partition_point(|node| *node < self.all.nearest(x)).clamp(1, self.nodes.len() - 1);
-        self.nodes[after] - self.nodes[after - 1]
+    /// Distance of the nodes on either side of a point; nothing beside an end, which a line of symmetry may have made exact.
+    fn node_distance(&self, x: Point) -> Option<f64> {
+        let nodes = self.nodes;
+        let after = nodes.partition_point(|node| *node < self.all.nearest(x));
+        let is_beside_an_end = self.all.period().is_none() && (after < 2 || after + 1 >= nodes.len());
+        let after = after.clamp(1, nodes.len() - 1);
+        (!is_beside_an_end).then(|| nodes[after] - nodes[after - 1])
     }
 }
 
