@@ -24,10 +24,11 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// with an error makes mpirun end all others.
 const PAUSE: Duration = Duration::from_secs(1);
 
-/// Bytes of the stack that starting takes: 64 kB overflow in MPI, 128 do.
+/// Bytes of the stack that MPI takes: 64 kB overflow.
 const LEAST_STACK: u64 = 128 << 10;
-/// Bytes of the files that the ranks of a host share their memory by.
-const LEAST_FILE: u64 = 4 << 20;
+/// Bytes of the files by which the ranks of a host share their memory: with 4 MB Open MPI ends by a signal, with less it may wait for
+/// ever, with 8 it starts.
+const LEAST_FILE: u64 = 8 << 20;
 
 #[global_allocator]
 static ALLOCATOR: TellingAllocator = TellingAllocator;

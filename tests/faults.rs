@@ -104,6 +104,22 @@ fn files_that_are_limited_end_a_run_in_order() {
     assert_eq!(names_in(folder.path()), Vec::<String>::new(), "something is left");
 }
 
+/// What libraries do not survive is told before they start: a stack that overflows in MPI, and files too small for what its ranks share.
+#[test]
+fn limits_that_mpi_does_not_survive_are_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let info = format!("exec {MEZHA} info");
+    let ranks = format!("exec mpirun -n 2 --oversubscribe --bind-to none sh -c 'ulimit -f 2000 && {info}'");
+    for (line, words) in [
+        (format!("ulimit -s 64 && {info}"), "the stack may have 65536 bytes here, and 131072 at least are wanted: say ulimit -s"),
+        (ranks, "the files of MPI may have 1024000 bytes here, and 8388608 at least are wanted: say ulimit -f"),
+    ] {
+        let (code, output, errors) = shell(folder.path(), &line);
+        assert!(code == Some(1) && errors.contains(words), "{line}: {code:?}: {output}{errors}");
+        assert_eq!(errors.matches("at least are wanted").count(), 1, "rank 0 speaks for all: {errors}");
+    }
+}
+
 /// Fields are the largest files: a run that has no room for them has a result without.
 #[test]
 fn a_result_for_which_there_is_no_room_has_no_fields() {
