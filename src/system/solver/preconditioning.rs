@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 pub enum Preconditioning {
     /// Multigrid with one symmetric Gauss-Seidel sweep.
     Sweep,
-    /// Multigrid with [`STEPS`] steps of CG, preconditioned by the sweep.
+    /// Multigrid with a few steps of CG, preconditioned by the sweep.
     Steps,
     /// A Cholesky factor.
     Factor,
