@@ -47,7 +47,7 @@ pub struct FoundByProgramme {
     pub gaps: Vec<f64>,
 }
 
-/// Strain by that which pressing an overlap flat would take, below which nothing presses: what the programme leaves is 1e-8 of it.
+/// Strain by that which pressing an overlap flat would take, below which nothing presses: the programme is solved to 1e-9.
 const NO_STRAIN: f64 = 1e-6;
 
 /// Entries of a row on the unknowns of one block.

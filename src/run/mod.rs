@@ -49,7 +49,8 @@
 //! - A result is written to a folder with a name of its own (host, process, random number) beside the target, which rank 0
 //!   makes and tells the others. At the end it takes the target's name in one step: `rename` onto nothing or an empty folder, an
 //!   exchange (`renameat2`) with the result that stood there at the start; two steps where the file system has no exchange.
-//!   Whoever finds another result there than at the start is told, and ends with 1. What a killed run leaves is removed by the
+//!   Whoever finds another result there than at the start is told, and ends with 1; where the folder refuses what a result cannot
+//!   do without, the result goes to the working directory, or to that for temporary files. What a killed run leaves is removed by the
 //!   next one into that target if its maker is known to be dead: same host, no such process, no lock on the folder. Elsewhere it
 //!   stays.
 //! - A study gives each run the fingerprints of its case file and mesh (`--inputs`); a run that reads others ends with 1, and

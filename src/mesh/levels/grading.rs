@@ -4,7 +4,7 @@
 //! example 1 by 4.6e-4 and 1.2e-4 of the largest (P2, 15 and 58 thousand unknowns, `"auto"`). An edge with both ends named is
 //! cut in the middle first: with (6, 6) named beside (6, 4) across a single edge, U was off twice as far. Triangles next to the
 //! point are flat: iterations to 1e-8 (P2 with `p1-discontinuous`, bilateral, κ = 0.15, `refine` 2 to 5) are 11, 10, 10 and 10
-//! with two CG steps as the smoother, and with one sweep 16, 18, 22 and more on each level.
+//! with two CG steps as the smoother (four today), and with one sweep 16, 18, 22 and more on each level.
 
 use crate::geometry::Point;
 use crate::mesh::lattice;

@@ -20,8 +20,8 @@
 //!
 //! Iterations on other meshes of this kind, P1 and P2: edges 30 times shorter at the corners 12 and 10; turned by 20 degrees on
 //! inclined or clamped supports 11 and 10; moduli 1e6 apart 18 and 17 to rounding (BoomerAMG 90 and 111); ν = 0.45 16 and 14;
-//! 0.49 28 and 29, with two CG steps. Functions that lie outside of their body but for a node or two are kept: without them P1
-//! takes 14 iterations instead of 12, without those that a support cuts 19 to 58.
+//! 0.49 28 and 29, with two CG steps (four today). Functions that lie outside of their body but for a node or two are kept: without
+//! them P1 takes 14 iterations instead of 12, without those that a support cuts 19 to 58.
 
 mod grid;
 mod known_step;
