@@ -87,8 +87,9 @@ fn work_grows_with_the_unknowns_and_nothing_faster() {
     }
 }
 
-/// Two tubes, one in the other, a hundred times as wide as thick, pressed from inside: with P2 and ν = 0.49 no solve on a mesh
-/// with levels takes more iterations than one of good triangles and ν = 0.3. With two steps of CG as the smoother they were 19.
+/// Two tubes, one in the other, a hundred times as wide as thick, pressed from inside: with P2 and ν = 0.49 no solve takes more
+/// iterations than one of good triangles and ν = 0.3, without levels, too. With two steps of CG as the smoother they were 19, and
+/// 24 where a solve without levels began with a sweep.
 #[test]
 fn thin_shells_of_nearly_incompressible_bodies_take_no_more_iterations() {
     let tube = |inside: f64, cells: usize| grid(2, cells, 1, move |u, v| [inside + 0.01 * u, v]);
@@ -107,7 +108,7 @@ load.inside = { on = "inside", pressure = 0.1 }
 "#;
     let folder = tempfile::tempdir().expect("a folder");
     let file = write_scene(folder.path(), &Mesh { bodies }.text(), case);
-    for (refine, ranks) in [(1, 1), (1, 2), (2, 2)] {
+    for (refine, ranks) in [(0, 1), (0, 2), (1, 1), (1, 2), (2, 2)] {
         let ended = Run::file(&file).ranks(ranks).set("mesh.refine", refine).converged();
         let solves = ended.value("/solver/iterations").as_array().expect("a list").clone();
         let most = solves.iter().filter_map(serde_json::Value::as_u64).max().expect("a solve");

@@ -71,6 +71,12 @@ impl Scene {
         self.tool(body).is_some()
     }
 
+    /// The largest Poisson's ratio, as in plane strain, of all parts that deform.
+    pub fn poisson(&self) -> f64 {
+        let elastic = (0..self.bodies.len()).filter(|&body| !self.is_rigid(body));
+        elastic.flat_map(|body| &self.bodies[body].parts).map(|part| part.material.poisson_in_plane()).fold(0.0, f64::max)
+    }
+
     /// Young's modulus of each part as contacts see it, in the order of the mesh: without bound for a rigid tool.
     pub fn young(&self) -> Vec<f64> {
         (0..self.mesh.parts.len()).map(|part| self.young_of(part)).collect()

@@ -87,7 +87,7 @@ pub fn memory_need(scene: &Scene, refine: usize, (choice, tolerance): (SolverCho
     let form = choice.form();
     match form {
         Form::Augmented => {
-            let flat = Preconditioning::of(refine + 1, &scene.mesh.ratios) != Preconditioning::Sweep;
+            let flat = Preconditioning::of(scene, refine) != Preconditioning::Sweep;
             let more = if flat { BY_UNKNOWN_IF_FLAT } else { 0.0 };
             let is_large = !flat && 2 * nodes(finest).node_count() > MANY;
             let method = if is_large { 1 + usize::from(tolerance.residual() < TIGHT) } else { 0 };

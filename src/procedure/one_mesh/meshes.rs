@@ -102,11 +102,10 @@ impl Procedure<'_> {
 
     /// What the choice of the case comes to; what "auto" does is said with its reason.
     fn first_solver(&self, scene: &Scene, unknowns: usize) -> (Preconditioning, Option<String>) {
-        let (levels, ratios) = (scene.refine + 1, &scene.mesh.ratios);
         if self.choice != SolverChoice::Auto {
-            return (Preconditioning::of(levels, ratios), None);
+            return (Preconditioning::of(scene, scene.refine), None);
         }
-        let (preconditioning, words) = Preconditioning::first(levels, ratios, unknowns);
+        let (preconditioning, words) = Preconditioning::first(scene, unknowns);
         (preconditioning, Some(words))
     }
 
@@ -119,7 +118,7 @@ impl Procedure<'_> {
         };
         self.say(coarser);
         let (needed, is_hard) = coarser.needed(before.as_ref());
-        let preconditioning = needed.max(Preconditioning::of(refine + 1, &problem.scene.mesh.ratios));
+        let preconditioning = needed.max(Preconditioning::of(&problem.scene, refine));
         let tolerance = Tolerance::Residual(self.tolerance.residual().max(if self.accuracy.is_some() {
             COARSE_FOR_ACCURACY
         } else if problem.follows() {

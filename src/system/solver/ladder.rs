@@ -10,15 +10,12 @@
 //! 22 000 and 34 000 unknowns), refined towards both corners, 16 to 22. Rounding is the last limit: on example 1 a residual below
 //! 1e-8 is reached up to ν = 0.49999, and at 0.499999 it stands at 9e-8.
 
-use super::preconditioning::Preconditioning;
+use super::preconditioning::{LARGEST_FACTOR, Preconditioning};
 
 /// Unknowns of the displacement above which BiCGStab comes before GMRES: it has nine vectors instead of fifteen for
 /// ten iterations, so that fewer are cleared and added. To 1e-8 that saves a tenth of a solve at a million unknowns. On smaller
 /// systems it saves less, and GMRES may end after every cycle.
 pub const MANY: usize = 500_000;
-
-/// Unknowns up to which a factor fits into memory.
-const LARGEST_FACTOR: usize = 3_000_000;
 
 /// Iterations after which a solve has failed.
 pub const MOST_ITERATIONS: usize = 300;
