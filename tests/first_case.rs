@@ -52,6 +52,45 @@ fn a_first_case_runs_as_it_comes() {
     assert_eq!(ended.value("/contact/block-top-disc-rim/trust"), true);
 }
 
+/// A bearing whose rings both have names of what is held: the inner ring is loaded then, no weight drives its rollers, and these are held
+/// around its centre, as no coordinate could. The adapted mesh goes on though rollers lie loose, until what carries is good.
+#[test]
+fn a_first_case_of_a_bearing_loads_a_ring_and_holds_rollers_around_its_centre() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let drawn = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/bearing/bearing.msh");
+    std::fs::copy(drawn, folder.path().join("mesh.msh")).expect("a mesh");
+    let case = new_case(folder.path(), "mesh.msh");
+    let text = std::fs::read_to_string(&case).expect("a case");
+    assert!(text.contains("on = \"bore\"\nrigid = true") && !text.contains("\nbody_force"), "{text}");
+    assert_eq!(text.matches("about = [0, 0]\ntangential = 0.0\nangle = 0.0").count(), 10, "two lie beside the middle\n{text}");
+    let ended = Run::file(&case).ranks(2).set("accuracy.pressure", 0.02).set("output.fields", false).converged();
+    assert!(ended.value("/accuracy").as_array().is_some_and(|meshes| meshes.len() > 1), "{}", ended.said());
+    // The case of the bearing has .340 of a load that is five times as large.
+    let share = ended.number("/contact/outer-track-roller01-rim/force") / 200.0;
+    assert!((share - 0.339).abs() < 0.003, "{share}");
+    assert!(!ended.errors.contains("is driven by"), "{}", ended.errors);
+}
+
+/// Two discs side by side, neither of which is held by name: the weight of the example presses the one against the other, not along it.
+#[test]
+fn an_example_of_a_weight_presses_bodies_against_each_other() {
+    let disc = |x: f64| {
+        grid(8, 8, 3, move |u, v| {
+            let [a, b] = [2.0 * u - 1.0, 2.0 * v - 1.0];
+            [x + a * (1.0 - 0.5 * b * b).sqrt(), b * (1.0 - 0.5 * a * a).sqrt()]
+        })
+    };
+    let bodies = vec![("a", disc(0.0), ["a.s"; 4]), ("b", disc(2.0), ["b.s"; 4])];
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    std::fs::write(folder.path().join("mesh.msh"), Mesh { bodies }.text()).expect("a mesh can be written");
+    let case = new_case(folder.path(), "mesh.msh");
+    let text = std::fs::read_to_string(&case).expect("a case");
+    let line = text.lines().find(|line| line.starts_with("body_force")).unwrap_or_else(|| panic!("no load in\n{text}"));
+    assert!(line.starts_with("body_force = [-") && line.contains(", 0.0]") && line.contains("to the left"), "{line}");
+    let ended = Run::file(&case).ranks(2).set("output.fields", false).converged();
+    assert!(ended.value("/contact/s/trust") == true && !ended.errors.contains("support b-still"), "{}", ended.said());
+}
+
 /// A plate on a plate with a coarse disc on top, none of which is held by name: a case all the same, and one that is solved.
 #[test]
 fn three_free_bodies_make_a_case_that_runs() {

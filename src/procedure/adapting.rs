@@ -135,7 +135,10 @@ impl Procedure<'_> {
             (solved.is_idle() || adaptation.is_reached(), SequenceEnd::Reached),
             (late, SequenceEnd::Seconds),
             (self.is_unbounded(adaptation, solved), SequenceEnd::Unbounded),
-            (is_stuck(adaptation) || !adaptation.is_reached() && self.is_adrift(solved)?, SequenceEnd::Stuck),
+            (
+                is_stuck(adaptation) || !adaptation.is_reached() && self.is_adrift(solved, adaptation.missed())?,
+                SequenceEnd::Stuck,
+            ),
             (meshes.len() == MOST_MESHES, SequenceEnd::Meshes),
         ];
         Ok(all.into_iter().find(|(is_so, _)| *is_so).map(|(_, end)| end))

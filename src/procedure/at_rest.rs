@@ -36,11 +36,12 @@ impl AtRest {
     pub fn not_held(&self, scene: &Scene) -> Result<Option<String>, SystemError> {
         not_held_if_closed(scene, &self.numbering, &self.contacts)
     }
-    /// A rigid motion that nothing holds though contact is closed everywhere, of a scene that is on one rank.
+    /// A rigid motion that nothing holds though contact is closed everywhere, and whether loads do work in it, of a scene that is on one
+    /// rank.
     ///
     /// # Errors
     /// [`SystemError::Case`] if a contact cannot be integrated.
-    pub fn free_motion(&self, scene: &Scene) -> Result<Option<Mechanism>, SystemError> {
+    pub fn free_motion(&self, scene: &Scene) -> Result<Option<(Mechanism, bool)>, SystemError> {
         free_motion_if_closed(scene, &self.numbering, &self.contacts)
     }
 }

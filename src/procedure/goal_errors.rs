@@ -122,8 +122,13 @@ impl Procedure<'_> {
     }
 
     /// Whether rounding alone presses where bodies lie in each other within segments, and nothing drives a body that could move then: meshes
-    /// that are finer tell no more of where it lies. What moves or heats bodies may press on edges that no mesh holds yet. **Collective**
-    pub(super) fn is_adrift(&self, solved: &Solved) -> Result<bool, SystemError> {
+    /// that are finer tell no more of where it lies. What moves or heats bodies may press on edges that no mesh holds yet, and goals that are
+    /// `missed` on other contacts are reached all the same: rollers of a bearing lie loose beside those that carry. **Collective**
+    pub(super) fn is_adrift<'g>(
+        &self,
+        solved: &Solved,
+        mut missed: impl Iterator<Item = (usize, &'g Goal)>,
+    ) -> Result<bool, SystemError> {
         let Solved { problem, solution, .. } = solved;
         if problem.scene.is_moved() || problem.scene.is_heated() {
             return Ok(false);
@@ -137,7 +142,9 @@ impl Procedure<'_> {
                 loose.push(contact.pair.name.clone());
             }
         }
-        Ok(solved.adrift_without(&loose).is_some())
+        let carries =
+            |(_, goal): (usize, &Goal)| goal.quantity.contact().is_some_and(|name| !loose.iter().any(|loose| loose == name));
+        Ok(!missed.any(carries) && solved.adrift_without(&loose).is_some())
     }
 
     /// Errors of displacement and stress at a point.

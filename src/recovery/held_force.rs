@@ -53,9 +53,13 @@ pub fn held_forces(problem: &Discretisation, solution: &Solution, balance: &Bala
 }
 
 /// Whether contact could carry what changes it so, by the change of each force with the sum of all that presses more or less, and the
-/// force itself: something presses more, or enough is left everywhere. A taper that is held against sliding off presses nowhere without
-/// its hold.
+/// force itself: something presses more, or enough is left everywhere, and no contact carries a couple that is larger than its force. A
+/// taper that is held against sliding off presses nowhere without its hold; a narrow contact does not keep a stop from turning.
 fn could_carry(contacts: &[([f64; 2], f64)]) -> bool {
+    let is_couple = |([sum, size], own): &([f64; 2], f64)| 0.5 * (size - sum.abs()) > *own;
+    if contacts.iter().any(is_couple) {
+        return false;
+    }
     let closing: f64 = contacts.iter().map(|([sum, size], _)| 0.5 * (size + sum)).sum();
     let all: f64 = contacts.iter().map(|([_, size], _)| size).sum();
     closing > CLOSES * all || contacts.iter().all(|([sum, _], own)| own + sum >= LEFT * own)
@@ -71,5 +75,7 @@ mod tests {
         assert!(could_carry(&[([-21.3, 21.3], 41.3)]), "a block that is held against a wall, too");
         assert!(!could_carry(&[([-95.0, 95.0], 95.6)]), "a taper that is held against sliding off");
         assert!(!could_carry(&[([0.0, 0.45], 78.5), ([-3.9, 3.9], 1.2)]), "a roller that is held against rolling off a wall");
+        assert!(!could_carry(&[([-0.81, 13.47], 0.81)]), "a stop beside the middle of which a strip presses");
+        assert!(could_carry(&[([-0.81, 2.0], 0.81)]), "a stop of a width that may carry its moment");
     }
 }

@@ -1,7 +1,7 @@
 //! A rigid motion that nothing holds: what drives it, what would stop it, and what would hold it.
 
-use crate::body::{Applied, MOTIONS, RigidNodes, RigidSet, UNIT_MOTIONS, applied_forces, rigid_displacement};
-use crate::contact::{Condition, Extent, Mechanism, Touch, find_mechanism};
+use crate::body::{Applied, HeldMode, MOTIONS, Motion, RigidNodes, RigidSet, UNIT_MOTIONS, applied_forces, rigid_displacement};
+use crate::contact::{Condition, Extent, Mechanism, Touch, find_mechanism, tidy};
 use crate::discretisation::scene::Scene;
 use crate::element::{Order, Plane};
 use crate::geometry::Point;
@@ -23,6 +23,26 @@ const STOPS: f64 = 0.5;
 
 /// Share of the largest component of a motion from which another one holds it as well.
 const AS_LARGE: f64 = 0.5;
+
+/// Share of a shift across an axis, and of a turn beside it, below which it goes along that axis: as much as polygons make of round
+/// bodies.
+const ALONG: f64 = 1e-3;
+
+/// Keys that hold the mean shift of a piece along a motion which is mainly a shift, along no axis: around the centre of the motion, as of a
+/// roller between two rings, or in its direction, as of a disc on an incline; a coordinate alone would hold it across, too.
+pub fn slanted_shift(mechanism: &Mechanism, extent: &Extent) -> Option<[String; 2]> {
+    let (shift, turn) = mechanism.moves;
+    let (size, turned) = (shift.norm(), (turn * extent.radius).abs());
+    if shift.amin() <= ALONG * shift.amax() || turned > size {
+        return None;
+    }
+    let numbers = |v: Point, large: f64| format!("[{}, {}]", tidy(v.x, large), tidy(v.y, large));
+    if turned <= ALONG * size {
+        return Some([format!("direction = {}", numbers(shift / size, 1.0)), "along = 0.0".into()]);
+    }
+    let arm = Point::new(-shift.y, shift.x) / turn;
+    Some([format!("about = {}", numbers(extent.middle + arm, arm.norm())), "tangential = 0.0".into()])
+}
 
 /// A motion of one piece that nothing holds.
 pub struct FreeMotion<'a> {
@@ -100,26 +120,35 @@ impl FreeMotion<'_> {
             return None;
         }
         let Extent { middle, radius } = self.extents[piece];
-        let sizes = [shift.x.abs(), shift.y.abs(), turn.abs() * radius];
-        let largest = sizes.iter().copied().fold(0.0, f64::max);
-        let mut able: Vec<usize> = (0..3).filter(|&k| !held[k] && sizes[k] >= AS_LARGE * largest).collect();
-        able.sort_by(|a, b| sizes[*b].total_cmp(&sizes[*a]));
+        let slanted = slanted_shift(self.mechanism, &self.extents[piece])
+            .filter(|_| before.is_none_or(|hold| hold.held.iter().all(HeldMode::is_turn)));
+        let shifts = if slanted.is_some() { Vec::new() } else { vec![0, 1] };
+        let unit = |k: usize| (format!("{} = 0.0", MOTIONS[k]), UNIT_MOTIONS[k]);
+        let slanted = slanted.map(|keys| (keys.join(" and "), [shift.x, shift.y, 0.0]));
+        let modes: Vec<(String, Motion)> = shifts.into_iter().chain([2]).filter(|&k| !held[k]).map(unit).chain(slanted).collect();
+        let size = |k: usize| {
+            let of_mode = modes[k].1;
+            (of_mode[0] * shift.x + of_mode[1] * shift.y).abs() + (of_mode[2] * turn).abs() * radius
+        };
+        let largest = (0..modes.len()).map(size).fold(0.0, f64::max);
+        let mut able: Vec<usize> = (0..modes.len()).filter(|&k| size(k) >= AS_LARGE * largest).collect();
+        able.sort_by(|a, b| size(*b).total_cmp(&size(*a)));
         let arms = [Point::new(radius, 0.0), Point::new(0.0, radius)].map(|arm| [arm, -arm]);
         let places = || arms.as_flattened().iter().map(|arm| middle + arm);
-        let terms = |k: &usize| places().map(|x| (x, rigid_displacement(middle, &UNIT_MOTIONS[*k], x))).collect::<Vec<_>>();
-        let holds = |modes: &[usize]| self.is_held_by(modes.iter().map(terms), touches);
+        let terms = |k: &usize| places().map(|x| (x, rigid_displacement(middle, &modes[*k].1, x))).collect::<Vec<_>>();
+        let holds = |some: &[usize]| self.is_held_by(some.iter().map(terms), touches);
         // One mode that holds all, or as many as it takes.
         let one = able.iter().copied().find(|&k| holds(&[k]));
-        let mut modes = vec![one.or(able.first().copied())?];
-        for k in (0..3).filter(|k| !held[*k]) {
-            if !modes.contains(&k) && !holds(&modes) {
-                modes.push(k);
+        let mut some = vec![one.or(able.first().copied())?];
+        for k in 0..modes.len() {
+            if !some.contains(&k) && !holds(&some) {
+                some.push(k);
             }
         }
-        if !holds(&modes) {
-            modes.truncate(1);
+        if !holds(&some) {
+            some.truncate(1);
         }
-        let keys = modes.iter().map(|&k| format!("{} = 0.0", MOTIONS[k])).collect::<Vec<_>>().join(" and ");
+        let keys = some.iter().map(|&k| modes[k].0.as_str()).collect::<Vec<_>>().join(" and ");
         Some(match before {
             Some(hold) => format!("no load of its own drives that: hold it by {keys} in support.{}, too", hold.name),
             None => format!(

@@ -49,7 +49,7 @@ pub fn not_held_if_closed(scene: &Scene, numbering: &Numbering, contacts: &[Cont
     Ok(Restraints { scene, numbering, contacts, rows: &rows, shared: None }.not_held(&vec![true; rows.len()]))
 }
 
-/// A rigid motion of a piece that nothing holds there; nothing if all are held.
+/// A rigid motion of a piece that nothing holds there, and whether loads do work in it; nothing if all are held.
 ///
 /// # Errors
 /// As of [`not_held_if_closed`].
@@ -57,9 +57,14 @@ pub fn free_motion_if_closed(
     scene: &Scene,
     numbering: &Numbering,
     contacts: &[Contact],
-) -> Result<Option<Mechanism>, SystemError> {
+) -> Result<Option<(Mechanism, bool)>, SystemError> {
     let rows = coupled_here(contacts)?.0;
-    Ok(Restraints { scene, numbering, contacts, rows: &rows, shared: None }.mechanism(&vec![true; rows.len()]))
+    let whole = Restraints { scene, numbering, contacts, rows: &rows, shared: None };
+    let mechanism = whole.mechanism(&vec![true; rows.len()]);
+    Ok(mechanism.map(|mechanism| {
+        let is_driven = whole.free(|free| free.is_driven(), &mechanism);
+        (mechanism, is_driven)
+    }))
 }
 
 /// For each contact whether some body could move if it were open: then equilibrium sets its force, and bodies that are a little

@@ -152,7 +152,7 @@ fn body_lines(case: &Case) -> Vec<String> {
 /// What may be missing, as TOML to paste.
 fn proposals(case: &Case, mesh: &MacroMesh, is_loose: bool) -> String {
     let [contacts, mut refused] = proposed_contacts(case, mesh);
-    let supports = if is_loose { proposed_supports(case) } else { Vec::new() };
+    let supports = if is_loose { proposed_supports(case).tables } else { Vec::new() };
     let (mut tools, _) = proposed_tools(mesh, &case.tools, &case.contacts);
     let tables = |tools: &[ProposedTool]| -> Vec<String> { tools.iter().map(|tool| tool.text.clone()).collect() };
     let aside = take_refused(&mut tools, |tool| &tool.between, |tools| with_tables(case, tables(tools)));

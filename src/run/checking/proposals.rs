@@ -1,9 +1,10 @@
 //! What a case may lack, as TOML to paste: contacts of boundaries that lie close, and supports of what can move.
 
+use crate::body::MOTIONS;
 use crate::case::Case;
 use crate::case::error::dotted;
 use crate::contact::{ClosePair, Mechanism, close_pairs, drawn_gap};
-use crate::discretisation::{self, Scene};
+use crate::discretisation::{self, Scene, slanted_shift};
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{Level, MacroMesh, Numbering, Partition, Spot};
@@ -168,25 +169,38 @@ pub(crate) fn measure(pairs: &mut [ClosePair], case: &Case) {
     }
 }
 
+/// Supports that are proposed.
+#[derive(Default)]
+pub(crate) struct ProposedSupports {
+    /// The tables.
+    pub tables: Vec<String>,
+    /// Whether loads drive a motion that one of them holds, so that it carries what contact does not.
+    pub are_driven: bool,
+}
+
 /// Supports that would hold what can move though contact is closed everywhere, one after the other; none if all is held, or
 /// if that cannot be told.
-pub(crate) fn proposed_supports(case: &Case) -> Vec<String> {
+pub(crate) fn proposed_supports(case: &Case) -> ProposedSupports {
     let known = case.supports.iter().map(|support| support.name.clone());
     let known = known.chain(case.means.iter().map(|mean| mean.name.clone()));
     let mut names = TableNames::of(known.chain(case.springs.iter().map(|springs| springs.name.clone())));
-    let mut proposed = Vec::<Proposed>::new();
+    let (mut proposed, mut are_driven) = (Vec::<Proposed>::new(), false);
     for _ in 0..MOST_SUPPORTS {
         let with = with_tables(case, proposed.iter().map(Proposed::table).collect());
-        match with.and_then(|case| next_support(&case, &proposed, &mut names)) {
+        let next = with.and_then(|case| next_support(&case, &proposed, &mut names));
+        are_driven |= next.as_ref().is_some_and(|(_, is_driven)| *is_driven);
+        match next.map(|(support, _)| support) {
             Some(Proposed::Mean(mean)) => {
-                let moves = mean.moves;
                 let same = proposed.iter_mut().find_map(|other| match other {
-                    Proposed::Mean(other) if other.body == mean.body => Some(&mut other.moves),
+                    Proposed::Mean(other) if other.body == mean.body => Some(&mut other.held),
                     _ => None,
                 });
                 match same {
-                    Some(held) if (0..3).all(|k| held[k] || !moves[k]) => break,
-                    Some(held) => (0..3).for_each(|k| held[k] |= moves[k]),
+                    Some(held) if mean.held.iter().all(|key| held.contains(key)) => break,
+                    Some(held) => {
+                        held.extend(mean.held);
+                        held.sort_by_key(|line| line.starts_with("angle"));
+                    }
                     None => proposed.push(Proposed::Mean(mean)),
                 }
             }
@@ -194,22 +208,26 @@ pub(crate) fn proposed_supports(case: &Case) -> Vec<String> {
             None => break,
         }
     }
-    proposed.iter().map(Proposed::table).collect()
+    ProposedSupports { tables: proposed.iter().map(Proposed::table).collect(), are_driven }
 }
 
-/// A support of the mean motion of a body: which of its two shifts and its turn.
+/// A support of the mean motion of a body: lines that say which of its motions are held.
 pub(crate) struct MeanProposal {
     pub name: String,
     pub body: String,
-    pub moves: [bool; 3],
+    pub held: Vec<String>,
 }
 
 impl MeanProposal {
     /// The table, with a comment behind the name of the body.
     pub fn table(&self, comment: &str) -> String {
-        let held = ["ux", "uy", "angle"].into_iter().zip(self.moves).filter(|(_, moves)| *moves);
-        let keys: String = held.map(|(key, _)| format!("{key} = 0.0\n")).collect();
+        let keys: String = self.held.iter().map(|line| format!("{line}\n")).collect();
         format!("[support.{}]\nbody = {}{comment}\nmean = true\n{keys}", self.name, quoted(&self.body))
+    }
+
+    /// Lines that hold these of its two shifts and its turn.
+    pub fn lines(moves: [bool; 3]) -> Vec<String> {
+        (0..3).filter(|&k| moves[k]).map(|k| format!("{} = 0.0", MOTIONS[k])).collect()
     }
 }
 
@@ -229,13 +247,13 @@ impl Proposed {
     }
 }
 
-/// A support for the first motion that is free in a case.
-fn next_support(case: &Case, proposed: &[Proposed], names: &mut TableNames) -> Option<Proposed> {
+/// A support for the first motion that is free in a case, and whether loads drive that.
+fn next_support(case: &Case, proposed: &[Proposed], names: &mut TableNames) -> Option<(Proposed, bool)> {
     let mesh = scene::read_mesh_file(case).and_then(|bytes| scene::read_mesh(case, &bytes)).ok()?;
     // As `check` looks at it: contacts that are found on the first refined mesh may not be found on that of the file.
     let scene = scene::first(case, mesh).ok()?;
-    let motion = Procedure::look(&scene, 0).and_then(|at_rest| at_rest.free_motion(&scene)).ok()??;
-    support_for(case, &scene, &motion, proposed, names)
+    let (motion, is_driven) = Procedure::look(&scene, 0).and_then(|at_rest| at_rest.free_motion(&scene)).ok()??;
+    support_for(case, &scene, &motion, proposed, names).map(|support| (support, is_driven))
 }
 
 /// A support that holds one free motion: of a whole body by its mean, where nothing else holds it, and else of a point, on a
@@ -266,10 +284,12 @@ fn support_for(case: &Case, scene: &Scene, motion: &Mechanism, own: &[Proposed],
         // One component for one motion: another one may be what loads drive.
         let most = parts.iter().position(|part| part.abs() == largest);
         let moves = [0, 1, 2].map(|k| is_free || most == Some(k));
+        let slanted = slanted_shift(motion, &extent).filter(|_| !is_free);
+        let held = slanted.map_or_else(|| MeanProposal::lines(moves), Vec::from);
         // A hold that is there already is completed.
         let is_there = is_ours(name);
         let fresh = if is_there { String::new() } else { names.fresh(&format!("{name}-still")) };
-        return Some(Proposed::Mean(MeanProposal { name: fresh, body: name.clone(), moves }));
+        return Some(Proposed::Mean(MeanProposal { name: fresh, body: name.clone(), held }));
     }
     let touched = |boundary: &str| case.contacts.iter().any(|pair| pair.between.iter().any(|side| side == boundary));
     let is_own = |edges: &[u32]| edges.iter().all(|&edge| mesh.piece_beside(edge) == motion.piece);

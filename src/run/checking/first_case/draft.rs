@@ -4,7 +4,7 @@ use super::guesses::{Guesses, POISSON, Press, Weight, YOUNG};
 use super::named_curve::{LOADED, NamedCurve, PULLED};
 use crate::contact::ClosePair;
 use crate::run::checking::node_circle::NodeCircle;
-use crate::run::checking::proposals::{MeanProposal, TableNames, contact_table, digits, key, quoted, short};
+use crate::run::checking::proposals::{MeanProposal, ProposedSupports, TableNames, contact_table, digits, key, quoted, short};
 use std::path::Path;
 
 /// Boundaries that are named in comments at most.
@@ -78,8 +78,11 @@ impl Draft<'_> {
         let mut text = String::new();
         for (group, name) in self.groups.iter().zip(self.names) {
             let weight = weights.iter().find(|weight| self.guesses.mesh.bodies[weight.body] == *name);
-            let words = "# example: presses the body down, force for each volume";
-            let force = weight.map_or(String::new(), |weight| format!("body_force = [0.0, {:?}]    {words}\n", -weight.force));
+            let force = weight.map_or(String::new(), |weight| {
+                let (down, words) = self.guesses.down;
+                let [x, y] = (weight.force * down).map(|part| if part == 0.0 { 0.0 } else { part }).into();
+                format!("body_force = [{x:?}, {y:?}]    # example: presses the body {words}, force for each volume\n")
+            });
             let material = format!(
                 "young = {YOUNG:?}         # example: steel, in MPa\npoisson = {POISSON:?}            # example\n{force}"
             );
@@ -158,7 +161,8 @@ impl Draft<'_> {
         let Some((body, moves)) = self.guesses.foundation() else { return text };
         let words = "\n# No named boundary looks like one that is held, so the mean motion of the lowest body is. That carries the load all over\n# the body; where it stands on something, name that line in the mesh, hold it, and leave this out.\n";
         let body = self.guesses.mesh.bodies[body].clone();
-        text + words + &MeanProposal { name: tables.fresh(&format!("{body}-still")), body, moves }.table("")
+        text + words
+            + &MeanProposal { name: tables.fresh(&format!("{body}-still")), body, held: MeanProposal::lines(moves) }.table("")
     }
 
     fn load(&self, press: Press) -> String {
@@ -226,13 +230,18 @@ impl Draft<'_> {
 
     /// The supports that are proposed for what nothing else holds; those of bodies whose contacts are left out are comments. Returns
     /// words for such bodies.
-    pub fn proposed_supports(&self, text: &mut String, supports: &[String]) -> Option<String> {
+    pub fn proposed_supports(
+        &self,
+        text: &mut String,
+        ProposedSupports { tables, are_driven }: &ProposedSupports,
+    ) -> Option<String> {
         let cut_off = (0..self.names.len()).filter(|&body| self.guesses.is_cut_off(body));
         let cut_off: Vec<String> = cut_off.map(|body| quoted(&self.guesses.mesh.bodies[body])).collect();
         let body_of = |table: &str| cut_off.iter().find(|body| table.contains(&format!("body = {body}")));
-        let (unheld, others): (Vec<&String>, Vec<&String>) = supports.iter().partition(|table| body_of(table).is_some());
+        let (unheld, others): (Vec<&String>, Vec<&String>) = tables.iter().partition(|table| body_of(table).is_some());
         if !others.is_empty() {
-            *text += "\n# Neither supports nor contact hold these motions, and the load of the example does not drive them; put what you mean in their place.\n";
+            let what = if *are_driven { "so that these carry what drives them" } else { "which the example does not drive" };
+            *text += &format!("\n# Neither supports nor contact hold these motions, {what}; put what you mean in their place.\n");
             *text += &others.iter().map(|table| table.as_str()).collect::<Vec<_>>().join("\n");
         }
         for table in &unheld {

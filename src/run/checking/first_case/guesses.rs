@@ -3,7 +3,7 @@
 use super::named_curve::{ALONG, LOADED, NamedCurve, PULLED};
 use crate::contact::{ClosePair, close_pairs};
 use crate::geometry::{Point, cross};
-use crate::mesh::{Boundary, MacroMesh};
+use crate::mesh::{Boundary, MacroMesh, each_once};
 use crate::output::plot::range_of;
 use crate::run::checking::tools::{PRESSED as MOVED, ProposedTool, proposed_tools};
 use std::cmp::Ordering;
@@ -45,10 +45,18 @@ pub enum Press {
     Nothing,
 }
 
+/// Directions in which the example may press bodies by a force per area, and their words: the first one that contact carries is taken.
+pub const DOWN: [(Point, &str); 4] = [
+    (Point::new(0.0, -1.0), "down"),
+    (Point::new(-1.0, 0.0), "to the left"),
+    (Point::new(1.0, 0.0), "to the right"),
+    (Point::new(0.0, 1.0), "up"),
+];
+
 /// A body that its own weight presses, as it were.
 pub struct Weight {
     pub body: usize,
-    /// Force per area, downwards.
+    /// Force per area along what is down.
     pub force: f64,
 }
 
@@ -68,6 +76,8 @@ pub struct Guesses<'a> {
     pub unnamed: Vec<[usize; 2]>,
     /// Whether the interference of bodies that are drawn into each other loads them.
     pub interference_loads: bool,
+    /// What is down for a force per area, as a unit vector, and in words.
+    pub down: (Point, &'static str),
 }
 
 impl<'a> Guesses<'a> {
@@ -78,7 +88,7 @@ impl<'a> Guesses<'a> {
         curves.iter_mut().for_each(|curve| curve.is_touched |= tools.iter().any(|tool| tool.between[0] == curve.name));
         let is_known = |bodies: &[usize; 2]| pairs.iter().any(|pair| pair.bodies == *bodies);
         let unnamed = close_outlines(mesh).into_iter().filter(|bodies| !is_known(bodies)).collect();
-        Self { mesh, curves, pairs, tools, aside, refused: Vec::new(), unnamed, interference_loads: true }
+        Self { mesh, curves, pairs, tools, aside, refused: Vec::new(), unnamed, interference_loads: true, down: DOWN[0] }
     }
 
     /// Leaves out the pair or the tool of these names, in any order; says whether there is one.
@@ -104,7 +114,8 @@ impl<'a> Guesses<'a> {
     }
 
     /// The boundaries that are held: of each body one that says so by its name, or else the lowest of all that look down. Where that would
-    /// be all bodies, and neither a name nor an interference loads one, nothing would act: the highest is left to a load then.
+    /// be all bodies but those that lie between them, as rollers between two rings, and neither a name nor an interference loads one, nothing
+    /// would act: the highest is left to a load then.
     pub fn held(&self) -> Vec<&NamedCurve<'a>> {
         let rank = |curve: &&NamedCurve| (curve.normal.y < -ALONG, -curve.low.y);
         let likeliest = |a: &&NamedCurve, b: &&NamedCurve| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal);
@@ -114,7 +125,13 @@ impl<'a> Guesses<'a> {
             held.extend(self.free().filter(|curve| curve.normal.y < -ALONG).max_by(likeliest));
         }
         let is_loaded = self.is_pressed_in() || self.free().any(|curve| curve.has(LOADED) && !curve.is_held());
-        if held.len() > 1 && held.len() == self.mesh.bodies.len() && !is_loaded {
+        let is_base = |body: usize| held.iter().any(|curve| curve.body == body);
+        let lies_between = |body: usize| {
+            let partners = self.partners(body);
+            partners.len() > 1 && partners.into_iter().all(is_base) && !self.free().any(|curve| curve.body == body)
+        };
+        let acts_nowhere = (0..self.mesh.bodies.len()).all(|body| is_base(body) || lies_between(body));
+        if held.len() > 1 && acts_nowhere && !is_loaded {
             held.sort_by(|a, b| a.low.y.total_cmp(&b.low.y));
             held.pop();
         }
@@ -144,6 +161,12 @@ impl<'a> Guesses<'a> {
         }
         let is_whole = self.mesh.pieces.iter().filter(|piece| piece.body == body).count() == 1;
         (is_whole && motions.contains(&true)).then_some(motions)
+    }
+
+    /// Bodies that a body may touch, each once.
+    fn partners(&self, body: usize) -> Vec<usize> {
+        let pairs = self.pairs.iter().filter(|pair| pair.bodies.contains(&body));
+        each_once(pairs.flat_map(|pair| pair.bodies).filter(|&other| other != body))
     }
 
     /// Bodies that are held as a whole, by a boundary or by their mean motion.
@@ -215,16 +238,26 @@ impl<'a> Guesses<'a> {
             return Vec::new();
         }
         let pressed = self.pressed().map(|curve| curve.body);
+        // A load moves such a ring towards some of the bodies between it and the other one, and no weight is to drive these along it.
+        let ring = self.pressed().filter(|curve| curve.is_held()).map(|curve| curve.body);
         let middle = |body: usize| self.ends(body).iter().sum::<f64>();
         let is_higher =
             |body: usize, other: usize| middle(other) - middle(body) > LEVEL * (self.ends(body)[1] - self.ends(body)[0]);
         let rests = |&body: &usize| {
-            let mut partners =
-                self.pairs.iter().filter(|pair| pair.bodies.contains(&body)).flat_map(|pair| pair.bodies).peekable();
-            partners.peek().is_some() && !partners.any(|other| !bases.contains(&other) && is_higher(body, other))
+            let partners = self.partners(body);
+            let presses = |&other: &usize| !bases.contains(&other) && is_higher(body, other) || ring == Some(other);
+            !partners.is_empty() && !partners.iter().any(presses)
         };
         let loose = (0..self.mesh.bodies.len()).filter(|&body| !bases.contains(&body) && Some(body) != pressed).filter(rests);
         loose.map(|body| Weight { body, force: one_digit(PRESSED * YOUNG * self.narrowest() / self.area(body)) }).collect()
+    }
+
+    /// Whether what is down for weights may be another direction than the one of the drawing: there are some, on bodies that are drawn
+    /// touching.
+    pub fn may_turn_weights(&self) -> bool {
+        let touches = |body: usize| self.pairs.iter().any(|pair| pair.bodies.contains(&body) && pair.share() <= DRAWN);
+        let weights = self.weights();
+        !weights.is_empty() && weights.iter().all(|weight| touches(weight.body))
     }
 
     /// The force of the example on a boundary, for each length of thickness.
@@ -258,7 +291,7 @@ impl<'a> Guesses<'a> {
     /// How low and how high a body reaches.
     fn ends(&self, body: usize) -> [f64; 2] {
         let own = self.mesh.pieces.iter().zip(self.mesh.bounds()).filter(|(piece, _)| piece.body == body);
-        range_of(own.flat_map(|(_, [low, high])| [low.y, high.y]))
+        range_of(own.flat_map(|(_, ends)| ends.map(|end| -end.dot(&self.down.0))))
     }
 
     fn area(&self, body: usize) -> f64 {

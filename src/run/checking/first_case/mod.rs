@@ -11,9 +11,9 @@ use crate::case::{Case, CaseError};
 use crate::mesh::{parse_gmsh, read_bytes, touching_surfaces};
 use crate::output::RunError;
 use crate::run::checking::check::check;
-use crate::run::checking::proposals::{TableNames, measure, proposed_supports, quoted, refused_contacts};
+use crate::run::checking::proposals::{ProposedSupports, TableNames, measure, proposed_supports, quoted, refused_contacts};
 use draft::Draft;
-use guesses::{Guesses, Press};
+use guesses::{DOWN, Guesses, Press};
 use std::collections::HashMap;
 use std::path::{Component, Path, PathBuf};
 
@@ -43,23 +43,39 @@ pub fn first_case(mesh_file: &Path, named: &str) -> Result<FirstCase, RunError> 
     if let Ok(case) = parse(&draft.text(named, Press::Nothing)) {
         measure(&mut draft.guesses.pairs, &case);
     }
-    // The first way of pressing that can be is taken; the last presses nothing, and an interference that only pushes bodies off wants a
-    // load as well. If none can be, the first is told with its words.
-    let mut failed = None;
+    // The first way of pressing that contact carries is taken; the last presses nothing, and an interference that only pushes bodies off
+    // wants a load as well. If contact carries none, the first that can be is, and if none can be, the first is told with its words.
+    let (mut failed, mut carried) = (None, None);
     let presses = [Press::Plate, Press::Pressure, Press::Nothing];
-    for (interference_loads, press) in [true, false].into_iter().flat_map(|loads| presses.map(|press| (loads, press))) {
-        draft.guesses.interference_loads = interference_loads;
+    let ways = [true, false].into_iter().flat_map(|loads| presses.map(|press| (loads, press)));
+    for ((interference_loads, press), down) in ways.flat_map(|way| DOWN.map(|down| (way, down))) {
+        (draft.guesses.interference_loads, draft.guesses.down) = (interference_loads, down);
+        let is_new = down == DOWN[0] || press != Press::Nothing && draft.guesses.may_turn_weights();
+        if !is_new || press == Press::Nothing && carried.is_some() {
+            continue;
+        }
         loop {
             let text = draft.text(named, press);
             let supports = parse(&text).map(|case| proposed_supports(&case)).unwrap_or_default();
-            let case = parse(&format!("{text}\n{}", supports.join("\n")));
-            let Some(words) = refusal(&case) else { return Ok(finished(&draft, text, &supports, None)) };
+            let case = parse(&format!("{text}\n{}", supports.tables.join("\n")));
+            let Some(words) = refusal(&case) else {
+                let are_driven = supports.are_driven;
+                let case = finished(&draft, text, &supports, None);
+                if !are_driven {
+                    return Ok(case);
+                }
+                carried.get_or_insert(case);
+                break;
+            };
             let refused = case.map_or_else(|_| Vec::new(), |case| refused_contacts(&case));
             if refused.iter().filter(|(between, why)| draft.guesses.refuse(between, why)).count() == 0 {
                 failed.get_or_insert((text, supports, words));
                 break;
             }
         }
+    }
+    if let Some(case) = carried {
+        return Ok(case);
     }
     let (text, supports, words) = failed.expect("all have failed");
     let file_prefix = format!("{}: ", file.display());
@@ -68,7 +84,7 @@ pub fn first_case(mesh_file: &Path, named: &str) -> Result<FirstCase, RunError> 
 }
 
 /// A draft with the supports that it wants, and at its top why it does not pass, if so.
-fn finished(draft: &Draft, mut text: String, supports: &[String], words: Option<String>) -> FirstCase {
+fn finished(draft: &Draft, mut text: String, supports: &ProposedSupports, words: Option<String>) -> FirstCase {
     let unheld = draft.proposed_supports(&mut text, supports);
     let mut remarks = draft.remarks();
     let Some(words) = words.or(unheld) else { return FirstCase { text, remarks } };
