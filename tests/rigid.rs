@@ -215,6 +215,21 @@ contact.seam = {{ between = [\"top\", \"rigid.roller\"] }}\n"
     }
 }
 
+/// Γ_C on the block may grow under a roller, whose circle is open at its top: an end of a side that looks away from the curve is no limit.
+/// It pressed on 0.03 and not on what Hertz has, with three times his pressure.
+#[test]
+fn a_contact_boundary_on_the_block_grows_under_a_roller() {
+    let case = format!(
+        "{ROLLER}rigid.roller = {{ circle = {{ centre = [0, 3], radius = 3 }}, ux = 0.0, force = [0.0, -40.0] }}
+contact.seam = {{ between = [\"top\", \"rigid.roller\"], curve = \"top\" }}\n"
+    );
+    let ended = in_folder(&roller_scene(false), &case, Run::converged);
+    let hertz = (40.0 * 1000.0 / (1.0 - 0.09) / (3.0 * std::f64::consts::PI)).sqrt();
+    let found = ended.number("/contact/seam/pressure_max");
+    assert!((found / hertz - 1.0).abs() < 0.04, "{found} instead of {hertz}");
+    assert_eq!(ended.value("/contact/seam/trust"), true, "{}", ended.said());
+}
+
 /// The force is so small beside the gap that the roller must come down first.
 #[test]
 fn a_roller_comes_down_onto_the_block() {

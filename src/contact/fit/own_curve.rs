@@ -21,6 +21,8 @@ const TOUCHING: f64 = 1e-9;
 pub struct OwnCurve<'a> {
     /// Body 1's side and body 2's, closed ones begun at their seams.
     sides: [&'a SmoothSide; 2],
+    /// Which of them carries Γ_C.
+    own: usize,
     /// The curve.
     pub curve: Curve,
     /// Parameter at the middle of the side; on a closed curve parameters lie within half a turn from it.
@@ -30,9 +32,10 @@ pub struct OwnCurve<'a> {
 impl<'a> OwnCurve<'a> {
     /// The shape of the side that Γ_C of a pair lies on, shifted as that is, if it lies on one; closed sides are begun at their seams.
     pub fn of_pair(sides: [&'a SmoothSide; 2], pair: &Pair) -> Option<Self> {
-        let side = sides[pair.curve.own_side()? as usize];
+        let own = pair.curve.own_side()? as usize;
+        let side = sides[own];
         let middle = side.shape.nearest(side.places[side.places.len() / 2]);
-        Some(Self { sides, curve: side.shape.moved(side.shift), middle })
+        Some(Self { sides, own, curve: side.shape.moved(side.shift), middle })
     }
 
     /// How far Γ_C is shifted from the side that it has the shape of, for each side (length).
@@ -60,15 +63,17 @@ impl<'a> OwnCurve<'a> {
         self.foot(0, self.sides[0].places[node])
     }
 
-    /// Parameters up to which both sides are there, around a place between them.
+    /// Parameters up to which both sides are there, around a place between them. An end of the other side that looks away from the curve is
+    /// no limit: that of a circle that is open at its back.
     pub fn limits(&self, around: f64) -> [f64; 2] {
         let mut limits = match self.curve.period() {
             Some(period) => [self.middle - 0.5 * period, self.middle + 0.5 * period],
             None => [f64::NEG_INFINITY, f64::INFINITY],
         };
         for (k, side) in self.sides.iter().enumerate().filter(|(_, side)| side.turn().is_none()) {
-            for end in [0, side.places.len() - 1] {
-                let foot = self.foot(k, side.places[end]);
+            let ends = [side.places[0], side.places[side.places.len() - 1]];
+            for end in ends.into_iter().filter(|end| k == self.own || self.faces(*end)) {
+                let foot = self.foot(k, end);
                 if foot < around {
                     limits[0] = limits[0].max(foot);
                 } else {
@@ -77,6 +82,14 @@ impl<'a> OwnCurve<'a> {
             }
         }
         limits
+    }
+
+    /// Whether the other side looks at the curve from a point of its own.
+    fn faces(&self, x: Point) -> bool {
+        let [own, other] = [self.sides[self.own], self.sides[1 - self.own]];
+        let (_, outward) = other.nearest_place(x);
+        let (_, outward_of_own) = own.nearest_place(x + other.shift - own.shift);
+        outward.dot(&outward_of_own) < 0.0
     }
 
     /// Parameter of the foot of a point of a side.
