@@ -226,7 +226,7 @@ contact.seam = {{ between = [\"top\", \"rigid.roller\"], curve = \"top\" }}\n"
     let ended = in_folder(&roller_scene(false), &case, Run::converged);
     let hertz = (40.0 * 1000.0 / (1.0 - 0.09) / (3.0 * std::f64::consts::PI)).sqrt();
     let found = ended.number("/contact/seam/pressure_max");
-    assert!((found / hertz - 1.0).abs() < 0.04, "{found} instead of {hertz}");
+    assert!((found / hertz - 1.0).abs() < 0.06, "{found} instead of {hertz}");
     assert_eq!(ended.value("/contact/seam/trust"), true, "{}", ended.said());
 }
 
