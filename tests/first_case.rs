@@ -71,6 +71,31 @@ fn a_first_case_of_a_bearing_loads_a_ring_and_holds_rollers_around_its_centre() 
     assert!(!ended.errors.contains("is driven by"), "{}", ended.errors);
 }
 
+/// A wheel is drawn on the shoulder of a rail, and a little above its crown, which a larger load presses, too: a contact of each. What
+/// was found beyond one contact alone was 5144 for 1351 on a rail like this.
+#[test]
+fn what_goes_on_along_a_boundary_beside_a_contact_is_proposed() {
+    let mut rail = grid(24, 6, 1, |u, v| {
+        let x = 20.0 * u - 10.0;
+        [x, (v - 1.0) * 10.0 - v * x * x / if x < 0.0 { 600.0 } else { 160.0 }]
+    });
+    let wheel = grid(22, 5, 2, |u, v| {
+        let x = 19.8 * u - 9.9;
+        [x, (1.0 - v) * (0.1 - 0.05 * x) + 8.0 * v]
+    });
+    let [bottom, right, top, left] = rail.sides;
+    let is_crown = |edge: &[usize; 2]| rail.points[edge[0]][0] + rail.points[edge[1]][0] < 0.0;
+    let (crown, shoulder) = top.into_iter().partition(is_crown);
+    rail.sides = [[bottom, right, left].concat(), shoulder, crown, Vec::new()];
+    let bodies = vec![("rail", rail, ["base", "shoulder", "crown", ""]), ("wheel", wheel, ["tread", "", "load", ""])];
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    std::fs::write(folder.path().join("mesh.msh"), Mesh { bodies }.text()).expect("a mesh can be written");
+    let text = std::fs::read_to_string(new_case(folder.path(), "mesh.msh")).expect("a case");
+    for side in ["shoulder", "crown"] {
+        assert!(text.contains(&format!("\nbetween = [\"{side}\", \"tread\"]")), "{side} in\n{text}");
+    }
+}
+
 /// Two discs side by side, neither of which is held by name: the weight of the example presses the one against the other, not along it.
 #[test]
 fn an_example_of_a_weight_presses_bodies_against_each_other() {

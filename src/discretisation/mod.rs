@@ -41,8 +41,8 @@ pub use form::Form;
 pub use held_bodies::{HeldBodies, held_motions, holds_of_bodies};
 pub use levels::{Discretisation, SMALL, WithoutContact, finest_numbering, node_count, ranks_in_group, spaces};
 pub use motions::{
-    Freedom, HeldLoad, adrift, few_that_hold, forces_without_holds, free_motion_if_closed, needed_contacts, not_held,
-    not_held_if_closed, rigid_motions, rigid_start, settle, slanted_shift,
+    Freedom, HeldLoad, LooseMotion, adrift, few_that_hold, forces_without_holds, free_motion_if_closed, needed_contacts,
+    not_held, not_held_if_closed, rigid_motions, rigid_start, settle,
 };
 pub use scene::{Scene, spread};
 pub use solution::Solution;

@@ -1,8 +1,7 @@
 //! A scene as it lies before anything is solved.
 
-use crate::contact::Mechanism;
 use crate::discretisation::{
-    Contact, Scene, Space, SystemError, check_soundness, finest_numbering, free_motion_if_closed, not_held_if_closed,
+    Contact, LooseMotion, Scene, Space, SystemError, check_soundness, finest_numbering, free_motion_if_closed, not_held_if_closed,
 };
 use crate::mesh::Numbering;
 
@@ -36,12 +35,11 @@ impl AtRest {
     pub fn not_held(&self, scene: &Scene) -> Result<Option<String>, SystemError> {
         not_held_if_closed(scene, &self.numbering, &self.contacts)
     }
-    /// A rigid motion that nothing holds though contact is closed everywhere, and whether loads do work in it, of a scene that is on one
-    /// rank.
+    /// A rigid motion that nothing holds though contact is closed everywhere, of a scene that is on one rank.
     ///
     /// # Errors
     /// [`SystemError::Case`] if a contact cannot be integrated.
-    pub fn free_motion(&self, scene: &Scene) -> Result<Option<(Mechanism, bool)>, SystemError> {
+    pub fn free_motion(&self, scene: &Scene) -> Result<Option<LooseMotion>, SystemError> {
         free_motion_if_closed(scene, &self.numbering, &self.contacts)
     }
 }

@@ -22,6 +22,9 @@ declare! {
     const ABOUT: [f64; 2] = key("about", POINT).or_else("the centre of a circle, otherwise the middle").unit("length");
 }
 
+/// Share of a force below which a component of it is none.
+const ROUNDING: f64 = 1e-12;
+
 const fn shift(name: &'static str) -> Key<f64> {
     key(name, NUMBER).or_else("0, or free where a `force` acts").unit("length")
 }
@@ -36,8 +39,12 @@ pub fn read_motion(section: &Section) -> Option<([Option<f64>; 3], [f64; 3])> {
     let moment = section.optional(MOMENT);
     let mut sound = (force.is_some() || !has_force) && (moment.is_some() || !has_moment);
     let [fx, fy] = force.unwrap_or_default();
-    let applied = [fx, fy, moment.unwrap_or(0.0)];
+    let mut applied = [fx, fy, moment.unwrap_or(0.0)];
     for (k, (component, load)) in [("ux", "force"), ("uy", "force"), ("angle", "moment")].into_iter().enumerate() {
+        // A force that is turned by a script has a component that is rounding.
+        if given[k] && k < 2 && applied[k].abs() <= ROUNDING * fx.hypot(fy) {
+            applied[k] = 0.0;
+        }
         if given[k] && applied[k] != 0.0 {
             let part = ["its x component", "its y component", "it"][k];
             section.problem(

@@ -31,7 +31,7 @@ declare! {
 declare! {
     group CONSTANTS;
     /// Young's modulus E.
-    const YOUNG: f64 = key("young", number(within(1e-100, 1e100).or_words("must lie in [1e-100, 1e100]; take other units")))
+    const YOUNG: f64 = key("young", number(within(1e-100, 1e100).or_words("must be above 0, and lie in [1e-100, 1e100]")))
         .like("7000.0").unit("force per area");
     /// Poisson's ratio ν; 0.5 in plane stress only.
     const POISSON: f64 = key("poisson", number(RATIOS)).like("0.3");

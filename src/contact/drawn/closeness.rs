@@ -1,7 +1,10 @@
 //! Boundaries of different bodies that lie close and face each other: contacts that a case may mean.
 
+mod sight;
+
 use crate::geometry::{Disc, Point, bounds, overlapping_discs, turn_right};
 use crate::mesh::{Boundary, CurvePiece, MacroMesh};
+use sight::Sight;
 use std::collections::{HashMap, HashSet};
 
 /// Parts of an edge at whose ends places are looked at, and places on a boundary at most.
@@ -11,9 +14,6 @@ const MOST_PLACES: usize = 1500;
 /// Parts of a rigid curve at whose ends places are looked at.
 const PLACES_OF_TOOL: usize = 500;
 
-/// Cosine of the angle between two outward normals that face each other, at most (120 degrees).
-const OPPOSITE: f64 = -0.5;
-
 /// Boundaries nearer than this share of the smaller body are close.
 const CLOSE: f64 = 0.1;
 
@@ -22,6 +22,11 @@ const APART: f64 = 0.5;
 
 /// A further pair of two bodies is as near as this share of the smaller one.
 const TOUCHING: f64 = 0.02;
+
+/// A boundary lies along another one where its normals are against that one's to this cosine (10 degrees), over this share of it at least: a
+/// fillet at the end of a flat turns away at once.
+const ALONG: f64 = -0.985;
+const MOSTLY: f64 = 0.5;
 
 /// Distances that differ by less than this share of the smaller body are alike.
 const ALIKE: f64 = 1e-4;
@@ -50,30 +55,6 @@ impl ClosePair {
     /// The size of the distance as a share of the smaller body.
     pub fn share(&self) -> f64 {
         self.distance.abs() / self.size
-    }
-}
-
-/// A place of a side: where it is, its outward normal, and how far the next place is.
-#[derive(Clone, Copy)]
-struct Sight {
-    place: Point,
-    normal: Point,
-    spacing: f64,
-    /// Whether it is an end of an edge, where sides that look elsewhere may meet.
-    is_end: bool,
-}
-
-impl Sight {
-    /// How far another place lies along the normal (length), if it looks back, lies within reach behind or ahead, and not far aside.
-    fn faces(&self, other: &Self, [behind, ahead]: [f64; 2]) -> Option<f64> {
-        if self.normal.dot(&other.normal) >= OPPOSITE {
-            return None;
-        }
-        let way = other.place - self.place;
-        let along = way.dot(&self.normal);
-        let aside = (way - along * self.normal).norm();
-        let is_near = (-behind..=ahead).contains(&along) && aside <= 0.5 * along.abs() + self.spacing + other.spacing;
-        is_near.then_some(along)
     }
 }
 
@@ -205,6 +186,14 @@ impl CloseSide {
         places.flat_map(|a| others.iter().filter_map(|b| Some(a.faces(b, within)?.abs()))).reduce(f64::min)
     }
 
+    /// Whether most of its places face another side within reach, all but against its normals.
+    fn lies_along(&self, other: &Self, reach: f64) -> bool {
+        let others = other.near(self, 1.5 * reach + self.spacing + other.spacing);
+        let faces =
+            |a: &Sight| others.iter().any(|b| a.normal.dot(&b.normal) <= ALONG && a.faces(b, [CLOSE * reach, reach]).is_some());
+        self.sights.iter().filter(|a| faces(a)).count() as f64 >= MOSTLY * self.sights.len() as f64
+    }
+
     /// Whether this side and another have an edge in common.
     fn shares_edges(&self, other: &Self) -> bool {
         let (few, many) = if self.edges.len() < other.edges.len() { (self, other) } else { (other, self) };
@@ -324,7 +313,10 @@ pub fn close_pairs(mesh: &MacroMesh, taken: &[[String; 2]]) -> Vec<ClosePair> {
         let is_meant = match others.is_empty() {
             true => pair.overlaps || pair.share <= CLOSE || bodies.iter().any(|body| !met.contains(body)),
             false if pair.overlaps => others.iter().all(|other| pair.shares(&sides, *other) != [true; 2]),
-            false => pair.share <= TOUCHING && others.iter().all(|other| pair.is_beside(&sides, *other, size)),
+            false => {
+                let is_further = |other: &[usize; 2]| pair.is_beside(&sides, *other, size) || pair.goes_on(&sides, *other, size);
+                pair.share <= TOUCHING && others.iter().all(is_further)
+            }
         };
         if is_meant {
             others.push(pair.sides);
@@ -340,6 +332,15 @@ impl FacingSides {
     /// Whether each side has edges in common with that of another pair.
     fn shares(&self, sides: &[CloseSide], other: [usize; 2]) -> [bool; 2] {
         [0, 1].map(|k| sides[self.sides[k]].shares_edges(&sides[other[k]]))
+    }
+
+    /// Whether a side that has no edge in common with that of another pair lies along the other one, and so close that it may press soon: the
+    /// crown of a rail beside the shoulder on which a wheel is drawn.
+    fn goes_on(&self, sides: &[CloseSide], other: [usize; 2], size: f64) -> bool {
+        let shared = self.shares(sides, other);
+        let [first, second] = self.sides.map(|side| &sides[side]);
+        let lies_along = [(first, second), (second, first)].map(|(own, faced)| own.lies_along(faced, TOUCHING * size));
+        shared != [true; 2] && (0..2).all(|k| shared[k] || lies_along[k])
     }
 
     /// Whether the sides come as close as they do beside another pair of the same bodies of that size, too: they touch elsewhere, and

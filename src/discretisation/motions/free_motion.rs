@@ -28,22 +28,6 @@ const AS_LARGE: f64 = 0.5;
 /// bodies.
 const ALONG: f64 = 1e-3;
 
-/// Keys that hold the mean shift of a piece along a motion which is mainly a shift, along no axis: around the centre of the motion, as of a
-/// roller between two rings, or in its direction, as of a disc on an incline; a coordinate alone would hold it across, too.
-pub fn slanted_shift(mechanism: &Mechanism, extent: &Extent) -> Option<[String; 2]> {
-    let (shift, turn) = mechanism.moves;
-    let (size, turned) = (shift.norm(), (turn * extent.radius).abs());
-    if shift.amin() <= ALONG * shift.amax() || turned > size {
-        return None;
-    }
-    let numbers = |v: Point, large: f64| format!("[{}, {}]", tidy(v.x, large), tidy(v.y, large));
-    if turned <= ALONG * size {
-        return Some([format!("direction = {}", numbers(shift / size, 1.0)), "along = 0.0".into()]);
-    }
-    let arm = Point::new(-shift.y, shift.x) / turn;
-    Some([format!("about = {}", numbers(extent.middle + arm, arm.norm())), "tangential = 0.0".into()])
-}
-
 /// A motion of one piece that nothing holds.
 pub struct FreeMotion<'a> {
     /// The scene.
@@ -84,6 +68,23 @@ impl FreeMotion<'_> {
         )
     }
 
+    /// Keys that hold the mean shift of the piece if the motion is mainly a shift, along no axis: around the centre of the motion, as of a
+    /// roller between two rings, or in its direction, as of a disc on an incline; a coordinate alone would hold it across, too.
+    pub fn slanted_shift(&self) -> Option<[String; 2]> {
+        let (shift, turn) = self.mechanism.moves;
+        let Extent { middle, radius } = self.extents[self.mechanism.piece];
+        let (size, turned) = (shift.norm(), (turn * radius).abs());
+        if shift.amin() <= ALONG * shift.amax() || turned > size {
+            return None;
+        }
+        let numbers = |v: Point, large: f64| format!("[{}, {}]", tidy(v.x, large), tidy(v.y, large));
+        if turned <= ALONG * size {
+            return Some([format!("direction = {}", numbers(shift / size, 1.0)), "along = 0.0".into()]);
+        }
+        let arm = Point::new(-shift.y, shift.x) / turn;
+        Some([format!("about = {}", numbers(middle + arm, arm.norm())), "tangential = 0.0".into()])
+    }
+
     /// The contact that the loads drive the piece against, by the normals of both bodies.
     pub fn stopped_by(&self, touches: &[Touch]) -> Option<usize> {
         let Mechanism { piece, moves: (shift, turn), .. } = *self.mechanism;
@@ -120,8 +121,7 @@ impl FreeMotion<'_> {
             return None;
         }
         let Extent { middle, radius } = self.extents[piece];
-        let slanted = slanted_shift(self.mechanism, &self.extents[piece])
-            .filter(|_| before.is_none_or(|hold| hold.held.iter().all(HeldMode::is_turn)));
+        let slanted = self.slanted_shift().filter(|_| before.is_none_or(|hold| hold.held.iter().all(HeldMode::is_turn)));
         let shifts = if slanted.is_some() { Vec::new() } else { vec![0, 1] };
         let unit = |k: usize| (format!("{} = 0.0", MOTIONS[k]), UNIT_MOTIONS[k]);
         let slanted = slanted.map(|keys| (keys.join(" and "), [shift.x, shift.y, 0.0]));

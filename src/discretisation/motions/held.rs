@@ -49,7 +49,17 @@ pub fn not_held_if_closed(scene: &Scene, numbering: &Numbering, contacts: &[Cont
     Ok(Restraints { scene, numbering, contacts, rows: &rows, shared: None }.not_held(&vec![true; rows.len()]))
 }
 
-/// A rigid motion of a piece that nothing holds there, and whether loads do work in it; nothing if all are held.
+/// A rigid motion of a piece that nothing holds.
+pub struct LooseMotion {
+    /// The piece and its motion.
+    pub mechanism: Mechanism,
+    /// Whether loads do work in it.
+    pub is_driven: bool,
+    /// Keys that hold its shift, if that goes along no axis.
+    pub slanted: Option<[String; 2]>,
+}
+
+/// A rigid motion of a piece that nothing holds there; nothing if all are held.
 ///
 /// # Errors
 /// As of [`not_held_if_closed`].
@@ -57,13 +67,13 @@ pub fn free_motion_if_closed(
     scene: &Scene,
     numbering: &Numbering,
     contacts: &[Contact],
-) -> Result<Option<(Mechanism, bool)>, SystemError> {
+) -> Result<Option<LooseMotion>, SystemError> {
     let rows = coupled_here(contacts)?.0;
     let whole = Restraints { scene, numbering, contacts, rows: &rows, shared: None };
     let mechanism = whole.mechanism(&vec![true; rows.len()]);
     Ok(mechanism.map(|mechanism| {
-        let is_driven = whole.free(|free| free.is_driven(), &mechanism);
-        (mechanism, is_driven)
+        let (is_driven, slanted) = whole.free(|free| (free.is_driven(), free.slanted_shift()), &mechanism);
+        LooseMotion { mechanism, is_driven, slanted }
     }))
 }
 

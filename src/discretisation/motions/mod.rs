@@ -9,9 +9,8 @@ mod mean_force;
 mod rigid_motion;
 mod rigid_start;
 
-pub use free_motion::slanted_shift;
 pub use freedom::Freedom;
-pub use held::{adrift, few_that_hold, free_motion_if_closed, needed_contacts, not_held, not_held_if_closed};
+pub use held::{LooseMotion, adrift, few_that_hold, free_motion_if_closed, needed_contacts, not_held, not_held_if_closed};
 pub use held_load::{HeldLoad, forces_without_holds};
 pub use rigid_motion::{rigid_motions, settle};
 pub use rigid_start::rigid_start;

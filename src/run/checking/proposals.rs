@@ -4,7 +4,7 @@ use crate::body::MOTIONS;
 use crate::case::Case;
 use crate::case::error::dotted;
 use crate::contact::{ClosePair, Mechanism, close_pairs, drawn_gap};
-use crate::discretisation::{self, Scene, slanted_shift};
+use crate::discretisation::{self, Scene};
 use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{Level, MacroMesh, Numbering, Partition, Spot};
@@ -252,13 +252,20 @@ fn next_support(case: &Case, proposed: &[Proposed], names: &mut TableNames) -> O
     let mesh = scene::read_mesh_file(case).and_then(|bytes| scene::read_mesh(case, &bytes)).ok()?;
     // As `check` looks at it: contacts that are found on the first refined mesh may not be found on that of the file.
     let scene = scene::first(case, mesh).ok()?;
-    let (motion, is_driven) = Procedure::look(&scene, 0).and_then(|at_rest| at_rest.free_motion(&scene)).ok()??;
-    support_for(case, &scene, &motion, proposed, names).map(|support| (support, is_driven))
+    let loose = Procedure::look(&scene, 0).and_then(|at_rest| at_rest.free_motion(&scene)).ok()??;
+    let motion = (&loose.mechanism, loose.slanted);
+    support_for(case, &scene, motion, proposed, names).map(|support| (support, loose.is_driven))
 }
 
 /// A support that holds one free motion: of a whole body by its mean, where nothing else holds it, and else of a point, on a
 /// boundary that is in no contact if there is one.
-fn support_for(case: &Case, scene: &Scene, motion: &Mechanism, own: &[Proposed], names: &mut TableNames) -> Option<Proposed> {
+fn support_for(
+    case: &Case,
+    scene: &Scene,
+    (motion, slanted): (&Mechanism, Option<[String; 2]>),
+    own: &[Proposed],
+    names: &mut TableNames,
+) -> Option<Proposed> {
     let (mesh, extent) = (&scene.mesh, scene.extents()[motion.piece]);
     let body = mesh.pieces[motion.piece].body;
     let name = &mesh.bodies[body];
@@ -284,7 +291,7 @@ fn support_for(case: &Case, scene: &Scene, motion: &Mechanism, own: &[Proposed],
         // One component for one motion: another one may be what loads drive.
         let most = parts.iter().position(|part| part.abs() == largest);
         let moves = [0, 1, 2].map(|k| is_free || most == Some(k));
-        let slanted = slanted_shift(motion, &extent).filter(|_| !is_free);
+        let slanted = slanted.filter(|_| !is_free);
         let held = slanted.map_or_else(|| MeanProposal::lines(moves), Vec::from);
         // A hold that is there already is completed.
         let is_there = is_ours(name);

@@ -252,12 +252,13 @@ impl<'a> Guesses<'a> {
         loose.map(|body| Weight { body, force: one_digit(PRESSED * YOUNG * self.narrowest() / self.area(body)) }).collect()
     }
 
-    /// Whether what is down for weights may be another direction than the one of the drawing: there are some, on bodies that are drawn
-    /// touching.
+    /// Whether weights may have another direction than down on the drawing: there are some, on bodies that are drawn touching. In a pile
+    /// that nothing holds by a name, three discs for example, they would open contacts.
     pub fn may_turn_weights(&self) -> bool {
         let touches = |body: usize| self.pairs.iter().any(|pair| pair.bodies.contains(&body) && pair.share() <= DRAWN);
+        let is_pile = |body: usize| self.foundation().is_some() && self.partners(body).len() > 1;
         let weights = self.weights();
-        !weights.is_empty() && weights.iter().all(|weight| touches(weight.body))
+        !weights.is_empty() && weights.iter().all(|weight| touches(weight.body) && !is_pile(weight.body))
     }
 
     /// The force of the example on a boundary, for each length of thickness.
