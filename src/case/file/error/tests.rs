@@ -92,7 +92,7 @@ fn errors_of_meshes_and_of_unknown_tables_name_key_value_and_remedy() {
 #[test]
 fn errors_of_bodies_and_of_their_weight_name_key_value_and_remedy() {
     assert_refused(&[
-        ("body.a.young=0", "body.a.young = 0 (--set): must lie in [1e-100, 1e100]"),
+        ("body.a.young=0", "body.a.young = 0 (--set): must be above 0, and lie in [1e-100, 1e100]"),
         ("body.a.young=inf", "must be a finite number"),
         ("body.a.poisson=0,3", "body.a.poisson = \"0,3\" (--set): must be a finite number; write 0.3"),
         ("body.a.poisson=.3", "must be a finite number; write 0.3"),
