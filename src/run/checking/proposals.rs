@@ -199,7 +199,8 @@ pub(crate) fn proposed_supports(case: &Case) -> ProposedSupports {
                     Some(held) if mean.held.iter().all(|key| held.contains(key)) => break,
                     Some(held) => {
                         held.extend(mean.held);
-                        held.sort_by_key(|line| line.starts_with("angle"));
+                        held.sort_by_key(|line| (line.starts_with("angle"), line.clone()));
+                        held.dedup();
                     }
                     None => proposed.push(Proposed::Mean(mean)),
                 }
@@ -245,6 +246,14 @@ impl Proposed {
             Self::Point(table) => table.clone(),
         }
     }
+
+    /// It, if it is of the mean motion of this body.
+    fn mean_of(&self, body: &str) -> Option<&MeanProposal> {
+        match self {
+            Self::Mean(mean) if mean.body == body => Some(mean),
+            _ => None,
+        }
+    }
 }
 
 /// A support for the first motion that is free in a case, and whether loads drive that.
@@ -278,10 +287,10 @@ fn support_for(
     if case.plates.iter().any(|plate| holds(&plate.on)) {
         return None;
     }
-    let is_ours = |body: &String| own.iter().any(|own| matches!(own, Proposed::Mean(own) if own.body == *body));
+    let ours = own.iter().find_map(|own| own.mean_of(name));
     let is_held = case.supports.iter().any(|support| holds(&support.on) || support.at.is_some())
         || case.springs.iter().any(|springs| holds(&springs.on))
-        || case.means.iter().any(|mean| mean.body == *name && !is_ours(&mean.body));
+        || case.means.iter().any(|mean| mean.body == *name && ours.is_none());
     let is_whole = mesh.pieces.iter().filter(|piece| piece.body == body).count() == 1;
     let (shift, turn) = motion.moves;
     let parts = [shift.x, shift.y, turn * extent.radius];
@@ -291,11 +300,11 @@ fn support_for(
         // One component for one motion: another one may be what loads drive.
         let most = parts.iter().position(|part| part.abs() == largest);
         let moves = [0, 1, 2].map(|k| is_free || most == Some(k));
-        let slanted = slanted.filter(|_| !is_free);
+        let is_first_shift = ours.is_none_or(|ours| ours.held.iter().all(|line| line.starts_with("angle")));
+        let slanted = slanted.filter(|_| !is_free && is_first_shift);
         let held = slanted.map_or_else(|| MeanProposal::lines(moves), Vec::from);
         // A hold that is there already is completed.
-        let is_there = is_ours(name);
-        let fresh = if is_there { String::new() } else { names.fresh(&format!("{name}-still")) };
+        let fresh = if ours.is_some() { String::new() } else { names.fresh(&format!("{name}-still")) };
         return Some(Proposed::Mean(MeanProposal { name: fresh, body: name.clone(), held }));
     }
     let touched = |boundary: &str| case.contacts.iter().any(|pair| pair.between.iter().any(|side| side == boundary));
