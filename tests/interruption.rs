@@ -175,10 +175,13 @@ fn a_study_that_a_signal_ends_keeps_what_is_made() {
 fn a_result_whose_folder_is_gone_finds_another_one() {
     for ranks in [None, Some(2)] {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let child = start(folder.path(), ranks, &(long_run("out/result") + " --set output.fields=false"));
+        // It is not interrupted, so that it need not be long: only longer than it takes to see its folder.
+        let line = long_run("out/result").replace("refine=7", "refine=6") + " --set output.fields=false";
+        let child = start(folder.path(), ranks, &line);
         wait_until(|| all_names(folder.path()).iter().any(|name| name.starts_with(".result.")));
         std::fs::remove_dir_all(folder.path().join("out")).expect("a folder that can be removed");
-        let (code, errors) = end(child);
+        let ended = child.wait_with_output().expect("a child ends");
+        let (code, errors) = (ended.status.code(), String::from_utf8_lossy(&ended.stderr).into_owned());
         assert!(code == Some(1) && errors.contains("not lost: the result is in `mezha-result-"), "{code:?}: {errors}");
         let names = names_in(folder.path());
         let place = folder.path().join(names.iter().find(|name| name.starts_with("mezha-result-")).expect("a result"));
