@@ -17,6 +17,9 @@
 //! | a million triangles of a file, P1 | 1.0 million | 1190 | 1050 |
 //! | the same, P2 | 4.0 million | 2080 | 1925 |
 //! | 182 thousand triangles of Gmsh, P2, `refine = 1` | 2.9 million | 2004 | 2003 |
+//! | thick sphere, ν = 0.4999, by a factor, P1, `refine = 6` | 0.1 million | 325 | 323 |
+//! | the same, P2, `refine = 6` | 0.4 million | 1260 | 1160 |
+//! | the same, P2, `refine = 7` | 1.7 million | 4960 | 4488 |
 
 use crate::discretisation::{Form, SMALL, Scene, node_count, ranks_in_group};
 use crate::element::Order;
@@ -73,8 +76,8 @@ const BY_EMPTY_ROW: f64 = 24.0;
 /// Mean number of blocks in a stored row, P1 and P2.
 const BLOCKS: [f64; 2] = [7.0, 11.5];
 
-/// Bytes for each unknown in a factorisation of the plain system at a million unknowns, P1 and P2, and by how much that grows
-/// with four times the unknowns. Measured on example 1 at 66 thousand to 1.1 million unknowns.
+/// Bytes for each unknown in a factorisation, of the plain system or of the displacements, at a million unknowns, P1 and P2, and by
+/// how much that grows with four times the unknowns. Measured on example 1 at 66 thousand to 1.1 million unknowns.
 const BY_FACTOR: [[f64; 2]; 2] = [[2000.0, 150.0], [2500.0, 200.0]];
 
 /// Bytes that a scene takes on a rank with so many refinements.
@@ -84,29 +87,24 @@ pub fn memory_need(scene: &Scene, refine: usize, (choice, tolerance): (SolverCho
     let nodes = |level: Level| Numbering::new(level, &scene.partition);
     let unknowns = 2.0 * nodes(finest).range(rank).len() as f64;
     let of_macro_mesh = memory_of_macro_mesh(scene) + memory_of_partitions(scene, &levels);
-    let form = choice.form();
-    match form {
-        Form::Augmented => {
-            let flat = Preconditioning::of(scene, refine) != Preconditioning::Sweep;
-            let more = if flat { BY_UNKNOWN_IF_FLAT } else { 0.0 };
-            let is_large = !flat && 2 * nodes(finest).node_count() > MANY;
-            let method = if is_large { 1 + usize::from(tolerance.residual() < TIGHT) } else { 0 };
-            let rigid = if moves_rigidly(scene) { BY_UNKNOWN_IF_RIGID } else { 0.0 };
-            let by_unknown = more + rigid + BY_UNKNOWN[method];
-            let has_auxiliary = 2 * scene.mesh.vertices.len() > SMALL;
-            let own = if has_auxiliary { scene.partition.triangles_of(rank).len() as f64 } else { 0.0 };
-            of_macro_mesh
-                + BY_AUXILIARY * own
-                + by_unknown * unknowns
-                + levels.iter().map(|&level| memory_of_level(scene, level, form, rank)).sum::<f64>()
-        }
-        Form::Plain => {
-            let [at_a_million, growth] = BY_FACTOR[usize::from(scene.order == Order::P2)];
-            let all = 2.0 * nodes(finest).node_count() as f64;
-            let by_unknown = (at_a_million + growth * (all / 1e6).ln() / 4f64.ln()).max(0.5 * at_a_million);
-            of_macro_mesh + by_unknown * unknowns + memory_of_level(scene, finest, form, rank)
-        }
+    let all = 2 * nodes(finest).node_count();
+    let begins = || Preconditioning::first(&Scene { refine, ..scene.clone() }, all).0;
+    if choice == SolverChoice::Direct || choice == SolverChoice::Auto && begins() == Preconditioning::Factor {
+        let [at_a_million, growth] = BY_FACTOR[usize::from(scene.order == Order::P2)];
+        let by_unknown = (at_a_million + growth * (all as f64 / 1e6).ln() / 4f64.ln()).max(0.5 * at_a_million);
+        return of_macro_mesh + by_unknown * unknowns + memory_of_level(scene, finest, Form::Plain, rank);
     }
+    let flat = Preconditioning::of(scene, refine) != Preconditioning::Sweep;
+    let more = if flat { BY_UNKNOWN_IF_FLAT } else { 0.0 };
+    let method = if !flat && all > MANY { 1 + usize::from(tolerance.residual() < TIGHT) } else { 0 };
+    let rigid = if moves_rigidly(scene) { BY_UNKNOWN_IF_RIGID } else { 0.0 };
+    let by_unknown = more + rigid + BY_UNKNOWN[method];
+    let has_auxiliary = 2 * scene.mesh.vertices.len() > SMALL;
+    let own = if has_auxiliary { scene.partition.triangles_of(rank).len() as f64 } else { 0.0 };
+    of_macro_mesh
+        + BY_AUXILIARY * own
+        + by_unknown * unknowns
+        + levels.iter().map(|&level| memory_of_level(scene, level, Form::Augmented, rank)).sum::<f64>()
 }
 
 /// Bytes that the macro mesh of a scene takes on every rank.

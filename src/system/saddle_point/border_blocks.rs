@@ -11,8 +11,8 @@
 //! with `W = V` but for `(I - C D) B R` beside the multipliers, and in the plain form `K R` in the place of `K R + Bᵀ D B R` in `V`
 //! alone. `E` is regular where contact or springs of a mesh resist: of means the last row tells `q` and the one before `μ`, of
 //! rigid sets there is a small matrix left. So `(A - V E⁻¹ Wᵀ) x = b - V E⁻¹ h` is the system of the unknowns `x` alone, at the
-//! price of one sum over ranks for each product, however many motions there are. A mean that no active multiplier knows of is none
-//! of its business.
+//! price of one sum over ranks for each product, however many motions there are. So is a mean that no active multiplier knows of: loads
+//! may drive it.
 
 use super::augmentation::Augmentation;
 use super::coupling_rows::CouplingRows;
@@ -20,7 +20,7 @@ use super::multiplier_blocks::MultiplierBlocks;
 use crate::discretisation::{Discretisation, Form, Space};
 use crate::multigrid::Sparse;
 use crate::petsc::Session;
-use crate::system::rigid_border::RigidBorder;
+use crate::system::rigid_border::{RigidBorder, RigidComponent};
 use nalgebra::{DMatrix, SymmetricEigen};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -37,9 +37,7 @@ pub struct BorderBlocks {
     pub(super) session: Session,
     /// This rank's displacement unknowns.
     pub(super) unknowns: usize,
-    /// Components of rigid sets, and of held means that an active multiplier knows of.
-    pub(super) linked: Vec<usize>,
-    /// For each of these, its columns.
+    /// Columns of each component.
     pub(super) columns: Vec<BorderColumn>,
     /// Rows of `Rᵀ K R + (B R)ᵀ D B R` of all components.
     pub(super) stiffness: Vec<BTreeMap<usize, f64>>,
@@ -50,8 +48,6 @@ pub struct BorderBlocks {
 
 /// Columns of a component.
 pub(super) struct BorderColumn {
-    /// Its number.
-    pub(super) component: usize,
     /// `K R + Bᵀ D B R` on this rank's unknowns.
     pub(super) forces: Sparse,
     /// `s B R` on this rank's multipliers.
@@ -80,7 +76,6 @@ impl BorderBlocks {
             weights,
             session: problem.session.clone(),
             unknowns,
-            linked: Vec::new(),
             columns: Vec::new(),
             stiffness: Vec::new(),
             inverse: none.clone(),
@@ -97,15 +92,17 @@ impl BorderBlocks {
         for (i, j) in (0..rigid).flat_map(|i| (0..rigid).map(move |j| (i, j))) {
             self.stiffness[i].insert(j, self.border.stiffness[(i, j)]);
         }
-        let mut is_linked: Vec<bool> = self.border.components.iter().map(|component| component.mean.is_none()).collect();
         for (row, weighted) in weighted.iter().enumerate().filter(|(row, _)| active[*row]) {
             for &(a, gap) in &self.border.gaps[row] {
-                is_linked[a] = true;
                 weighted.iter().for_each(|&(b, other)| *self.stiffness[a].entry(b).or_default() += gap * other);
             }
         }
-        self.linked = (0..is_linked.len()).filter(|&j| is_linked[j]).collect();
-        self.columns = self.linked.iter().map(|&component| BorderColumn::new(component)).collect();
+        let column = |component: &RigidComponent| BorderColumn {
+            forces: component.forces.clone(),
+            gaps: Sparse::new(),
+            balance: Sparse::new(),
+        };
+        self.columns = self.border.components.iter().map(column).collect();
         self.fill(rows, multipliers, active, &weighted, problem.finest());
         self.invert();
     }
@@ -125,7 +122,7 @@ impl BorderBlocks {
         all
     }
 
-    /// Fills the columns of what is linked.
+    /// Adds what contact has in the columns.
     fn fill(
         &mut self,
         rows: &CouplingRows,
@@ -134,16 +131,11 @@ impl BorderBlocks {
         weighted: &[Vec<(usize, f64)>],
         space: &Space,
     ) {
-        let mut place = vec![usize::MAX; self.border.components.len()];
-        self.linked.iter().enumerate().for_each(|(at, &component)| place[component] = at);
-        for column in &mut self.columns {
-            column.forces.extend_from_slice(&self.border.components[column.component].forces);
-        }
         for (i, weighted) in weighted.iter().enumerate().filter(|(_, weighted)| !weighted.is_empty()) {
             for (at, value) in rows.own_row(i, &space.own) {
                 let at = at as u32;
                 for &(j, weight) in weighted {
-                    self.columns[place[j]].forces.extend([(at, weight * value.x), (at + 1, weight * value.y)]);
+                    self.columns[j].forces.extend([(at, weight * value.x), (at + 1, weight * value.y)]);
                 }
             }
         }
@@ -151,11 +143,11 @@ impl BorderBlocks {
         for (at, &i) in multipliers.own.iter().enumerate().filter(|(_, i)| active[**i]) {
             let (at, scale) = (at as u32, multipliers.scale[i]);
             for &(j, gap) in &self.border.gaps[i] {
-                self.columns[place[j]].gaps.push((at, scale * gap));
-                self.columns[place[j]].balance.push((at, scale * gap));
+                self.columns[j].gaps.push((at, scale * gap));
+                self.columns[j].balance.push((at, scale * gap));
             }
             for (&k, jump) in &multipliers.jumps[i] {
-                weighted[k].iter().for_each(|&(j, gap)| self.columns[place[j]].balance.push((at, -scale * jump * gap)));
+                weighted[k].iter().for_each(|&(j, gap)| self.columns[j].balance.push((at, -scale * jump * gap)));
             }
         }
     }
@@ -184,7 +176,7 @@ impl BorderBlocks {
             let whole = self.border.young * self.border.components[j].arm.powi(2);
             self.stiffness[j].get(&j).copied().unwrap_or_default() / whole
         };
-        let mut held: Vec<usize> = self.linked.iter().copied().filter(|&j| j >= rigid && resisted(j) > share).collect();
+        let mut held: Vec<usize> = (rigid..self.columns.len()).filter(|&j| resisted(j) > share).collect();
         held.sort_by(|&a, &b| resisted(b).total_cmp(&resisted(a)));
         held.truncate(most);
         let held = held.into_iter().flat_map(|j| [BorderUnknown::Motion(j), BorderUnknown::Mean(j)]);
@@ -213,12 +205,6 @@ impl BorderBlocks {
             BorderUnknown::Motion(j) => of(j),
             BorderUnknown::Mean(j) => 1.0 / of(j),
         }
-    }
-}
-
-impl BorderColumn {
-    fn new(component: usize) -> Self {
-        Self { component, forces: Sparse::new(), gaps: Sparse::new(), balance: Sparse::new() }
     }
 }
 

@@ -41,43 +41,36 @@ impl BorderBlocks {
         DVector::from_iterator(rigid.len(), rigid.iter().map(|component| component.arm))
     }
 
-    /// `Wᵀ x` of what is linked. **Collective**
+    /// `Wᵀ x`. **Collective**
     pub fn sums(&self, x: &[f64]) -> BorderValues {
         let (u, lambda) = x.split_at(self.unknowns);
-        let row = |column: &BorderColumn| {
-            let mean = self.border.components[column.component].mean.as_ref();
+        let row = |(column, component): (&BorderColumn, &RigidComponent)| {
+            let mean = component.mean.as_ref();
             [dot(&column.forces, u) + dot(&column.balance, lambda), mean.map_or(0.0, |mean| dot(mean, u))]
         };
-        let mut sums: Vec<[f64; 2]> = self.columns.iter().map(row).collect();
+        let mut sums: Vec<[f64; 2]> = self.columns.iter().zip(&self.border.components).map(row).collect();
         self.session.sum(sums.as_flattened_mut());
-        let mut all = BorderValues::zeros(self.border.components.len());
-        for (&component, [motion, mean]) in self.linked.iter().zip(sums) {
-            (all.motion[component], all.mean[component]) = (motion, mean);
-        }
-        all
+        let (motion, mean) = sums.into_iter().map(<(f64, f64)>::from).unzip();
+        BorderValues { motion, mean }
     }
 
     /// What multipliers of this rank do to rows of unknowns. **Collective**
     pub fn balances(&self, unknowns: &[BorderUnknown], lambda: &[f64]) -> Vec<f64> {
         let row = |unknown: &BorderUnknown| match unknown {
-            BorderUnknown::Motion(j) => self.column(*j).map_or(0.0, |column| dot(&column.balance, lambda)),
+            BorderUnknown::Motion(j) => dot(&self.columns[*j].balance, lambda),
             BorderUnknown::Mean(_) => 0.0,
         };
         self.session.sum(unknowns.iter().map(row).collect())
     }
 
-    fn column(&self, component: usize) -> Option<&BorderColumn> {
-        self.linked.binary_search(&component).ok().map(|at| &self.columns[at])
-    }
-
     /// Unknowns beside the displacements, as the cycle takes them.
     pub fn for_cycle(&self, unknowns: &[BorderUnknown]) -> Border {
         let column = |unknown: &BorderUnknown| match unknown {
-            BorderUnknown::Motion(j) => self.column(*j).map(|column| column.forces.clone()),
-            BorderUnknown::Mean(j) => self.border.components[*j].mean.clone(),
+            BorderUnknown::Motion(j) => self.columns[*j].forces.clone(),
+            BorderUnknown::Mean(j) => self.border.components[*j].mean.clone().unwrap_or_default(),
         };
         Border {
-            columns: unknowns.iter().map(|unknown| column(unknown).unwrap_or_default()).collect(),
+            columns: unknowns.iter().map(column).collect(),
             corner: DMatrix::from_fn(unknowns.len(), unknowns.len(), |i, j| self.entry(unknowns[i], unknowns[j])),
             scales: unknowns.iter().map(|&unknown| self.scale(unknown)).collect(),
         }
@@ -93,7 +86,7 @@ impl BorderBlocks {
         let left = DVector::from_fn(rigid, |j, _| (r.motion[j] - product(j, &p.motion)) / arms[j]);
         let found = (&self.inverse * left).component_div(&arms);
         p.motion[..rigid].copy_from_slice(found.as_slice());
-        for &j in self.linked.iter().filter(|&&j| j >= rigid) {
+        for j in rigid..r.motion.len() {
             p.mean[j] = r.motion[j] - product(j, &p.motion);
         }
         p
@@ -102,22 +95,23 @@ impl BorderBlocks {
     /// `V` of an unknown, added to a vector; in the plain form, or where `whole`, with its gaps.
     pub fn add_column(&self, unknown: BorderUnknown, factor: f64, whole: bool, y: &mut [f64]) {
         let (upper, lower) = y.split_at_mut(self.unknowns);
-        let (BorderUnknown::Motion(component) | BorderUnknown::Mean(component)) = unknown;
-        let (of, Ok(at)) = (&self.border.components[component], self.linked.binary_search(&component)) else { return };
         match unknown {
-            BorderUnknown::Mean(_) => add_multiple(of.mean.as_ref().unwrap_or(&Sparse::new()), factor, upper),
-            BorderUnknown::Motion(_) => {
-                add_multiple(if self.form == Form::Plain { &of.forces } else { &self.columns[at].forces }, factor, upper);
+            BorderUnknown::Mean(j) => {
+                add_multiple(self.border.components[j].mean.as_ref().unwrap_or(&Sparse::new()), factor, upper);
+            }
+            BorderUnknown::Motion(j) => {
+                let (of, column) = (&self.border.components[j], &self.columns[j]);
+                add_multiple(if self.form == Form::Plain { &of.forces } else { &column.forces }, factor, upper);
                 if whole {
-                    add_multiple(&self.columns[at].gaps, factor, lower);
+                    add_multiple(&column.gaps, factor, lower);
                 }
             }
         }
     }
 
-    /// `y - V p`, in what is linked.
+    /// `y - V p`.
     fn subtract_moved(&self, p: &BorderValues, y: &mut [f64]) {
-        for &j in &self.linked {
+        for j in 0..p.motion.len() {
             self.add_column(BorderUnknown::Motion(j), -p.motion[j], true, y);
             if p.mean[j] != 0.0 {
                 self.add_column(BorderUnknown::Mean(j), -p.mean[j], true, y);
@@ -155,9 +149,7 @@ impl BorderBlocks {
     pub fn motion(&self, x: &[f64], given: &BorderValues, gap: &[f64], before: &[f64]) -> Vec<f64> {
         let (mut left, sums) = (self.right_hand_side(given, gap), self.sums(x));
         left.motion.iter_mut().zip(sums.motion).for_each(|(left, sum)| *left -= sum);
-        let mean = |component: &RigidComponent| component.mean.as_ref().map_or(0.0, |mean| dot(mean, &x[..self.unknowns]));
-        let means: Vec<f64> = self.session.sum(self.border.components.iter().map(mean).collect());
-        left.mean.iter_mut().zip(means).for_each(|(left, mean)| *left -= mean);
+        left.mean.iter_mut().zip(sums.mean).for_each(|(left, mean)| *left -= mean);
         let (mut found, arms) = (self.pivot(&left).motion, self.arms());
         let kept = &self.untold * DVector::from_fn(arms.len(), |j, _| before[j] * arms[j]);
         found.iter_mut().zip(kept.component_div(&arms).iter()).for_each(|(q, kept)| *q += kept);

@@ -19,26 +19,27 @@ pub enum Preconditioning {
 /// Seconds are alike to a fifth.
 const STEPS: usize = 4;
 
-/// Unknowns up to which a factor fits into memory.
-pub const LARGEST_FACTOR: usize = 3_000_000;
+/// Unknowns up to which a factor is tried: a thick sphere of P2 and 4.3 million unknowns takes 11.3 GB.
+pub const LARGEST_FACTOR: usize = 4_500_000;
 
 /// Ratio of graded refinement below which triangles are too flat for a sweep: it needs more iterations on each level.
 const FLAT: f64 = 0.25;
 
-/// Poisson's ratio above which a sweep is slow. A thin shell of revolution (P2, 1.5·10⁴ unknowns, two ranks) takes 13 iterations
-/// with 0.45, 15 with 0.46, 18 with 0.47 and 25 with 0.49.
-const STIFF: f64 = 0.45;
+/// Poisson's ratio above which a sweep is slow, in the plane and of a body of revolution. A thin shell of revolution (P2, 1.5·10⁴
+/// unknowns, two ranks) takes 13 iterations with 0.45, 15 with 0.46, 18 with 0.47 and 25 with 0.49; a thick sphere of P1 and P2 (1.8·10³
+/// to 4.3·10⁵ unknowns) 11 to 14 with 0.43, 13 to 15 with 0.44 and 13 to 16 with 0.45.
+const STIFF: [f64; 2] = [0.45, 0.43];
 
 /// Poisson's ratio above which steps of CG are slow, too, where the rows of the finest mesh are stored. Bars of P2 and 2.6·10⁵
 /// unknowns without levels take 11 to 15 iterations with 0.494, in the time of a factor, and 32 to 39 with 0.499, in three times its
-/// time; a thick sphere of P2 and 1.1·10⁵ unknowns 37 with 0.496, in twice its time. Bars of P1 lose: with 0.494 and 6.5·10⁴ unknowns the
-/// factor takes 1.4 times as long.
-const STIFFEST: f64 = 0.494;
+/// time. Bars of P1 lose: with 0.494 and 6.5·10⁴ unknowns the factor takes 1.4 times as long. A thick sphere of P2 takes 12 to 14
+/// iterations with 0.492, 13 to 16 with 0.494, in four fifths of the factor's time, and 37 with 0.496, in twice its time (1.1·10⁵ unknowns).
+const STIFFEST: [f64; 2] = [0.494, 0.491];
 
 impl Preconditioning {
     /// The cheapest one that does on a scene after so many refinements.
     pub fn of(scene: &Scene, refine: usize) -> Self {
-        if is_flat(scene, refine) || scene.poisson() > STIFF { Self::Steps } else { Self::Sweep }
+        if is_flat(scene, refine) || scene.poisson() > of_plane(STIFF, scene) { Self::Steps } else { Self::Sweep }
     }
 
     /// Where to begin on a scene of so many unknowns if the choice is free, and why, in words.
@@ -51,8 +52,9 @@ impl Preconditioning {
             return (Self::Factor, words);
         }
         let are_stored = scene.refine == 0 || scene.mesh.plane == Plane::Revolution;
-        if are_stored && scene.poisson() > STIFFEST && unknowns <= LARGEST_FACTOR {
-            let words = format!("fieldsplit with a Cholesky factor, because some Poisson's ratio is above {STIFFEST}");
+        if are_stored && scene.poisson() > of_plane(STIFFEST, scene) && unknowns <= LARGEST_FACTOR {
+            let ratio = of_plane(STIFFEST, scene);
+            let words = format!("fieldsplit with a Cholesky factor, because some Poisson's ratio is above {ratio}");
             return (Self::Factor, words);
         }
         let preconditioning = Self::of(scene, scene.refine);
@@ -63,7 +65,7 @@ impl Preconditioning {
         let why = match preconditioning {
             Self::Sweep | Self::Factor => String::new(),
             Self::Steps if is_flat(scene, scene.refine) => format!(" and some mesh.grade.ratio is below {FLAT}"),
-            Self::Steps => format!(" and some Poisson's ratio is above {STIFF}"),
+            Self::Steps => format!(" and some Poisson's ratio is above {}", of_plane(STIFF, scene)),
         };
         (preconditioning, format!("fieldsplit with {}, because {levels}{why}", preconditioning.words(cycle)))
     }
@@ -84,6 +86,11 @@ impl Preconditioning {
             Self::Factor => "Cholesky factor".to_string(),
         }
     }
+}
+
+/// Of two figures that of the plane, or that of bodies of revolution.
+fn of_plane([plane, revolution]: [f64; 2], scene: &Scene) -> f64 {
+    if scene.mesh.plane == Plane::Revolution { revolution } else { plane }
 }
 
 /// Whether graded refinement makes triangles too flat for a sweep.
@@ -109,6 +116,12 @@ mod tests {
         scene
     }
 
+    /// A scene as one of bodies of revolution.
+    fn turned(mut scene: Scene) -> Scene {
+        Rc::make_mut(&mut scene.mesh).plane = Plane::Revolution;
+        scene
+    }
+
     #[test]
     fn a_small_mesh_without_levels_begins_with_a_factor() {
         let first = |refine, unknowns| Preconditioning::first(&scene(refine, 0.3, &[]), unknowns).0;
@@ -129,16 +142,17 @@ mod tests {
             let (preconditioning, words) = Preconditioning::first(&scene(refine, 0.46, &[]), 10_000);
             assert!(preconditioning == Steps && words.ends_with("and some Poisson's ratio is above 0.45"), "{words}");
             assert_eq!(Preconditioning::of(&scene(refine, 0.45, &[]), refine), Sweep);
+            let of_revolution = [0.43, 0.44].map(|ratio| Preconditioning::of(&turned(scene(refine, ratio, &[])), refine));
+            assert_eq!(of_revolution, [Sweep, Steps]);
         }
     }
 
     #[test]
     fn what_steps_of_cg_are_slow_on_begins_with_a_factor_where_rows_are_stored() {
-        let stored = scene(0, 0.496, &[]);
-        let mut of_revolution = scene(2, 0.496, &[]);
-        assert_eq!(Preconditioning::first(&of_revolution, 10_000).0, Steps, "in the plane rows on a lattice are alike");
-        Rc::make_mut(&mut of_revolution.mesh).plane = Plane::Revolution;
-        for scene in [&stored, &of_revolution] {
+        let first = Preconditioning::first(&scene(2, 0.496, &[]), 10_000).0;
+        assert_eq!(first, Steps, "in the plane rows on a lattice are alike");
+        assert_eq!(Preconditioning::first(&scene(0, 0.492, &[]), 10_000).0, Steps);
+        for scene in [&scene(0, 0.496, &[]), &turned(scene(2, 0.492, &[]))] {
             assert_eq!([10_000, LARGEST_FACTOR + 1].map(|unknowns| Preconditioning::first(scene, unknowns).0), [Factor, Steps]);
         }
     }

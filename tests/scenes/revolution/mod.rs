@@ -102,9 +102,19 @@ fn fault(round: &Round, settings: &Settings, said: &Said) -> Option<String> {
     if pull > PULL * peak {
         return Some(format!("contact pulls by {:.1e}", pull / peak));
     }
-    let inside = said.trace.iter().map(|point| -point.gap).fold(0.0, f64::max);
+    let [length, segments] = [number("/contact/c/length")?, number("/contact/c/segments")?];
+    // Where λ is said to have no bound at an end, the last segment cannot follow it.
+    let end = if is_singular_at_end(said) { length / segments } else { 0.0 };
+    let within = said.trace.iter().filter(|point| (end..=length - end).contains(&point.s));
+    let inside = within.map(|point| -point.gap).fold(0.0, f64::max);
     let approach = number("/contact/c/approach")?;
     (inside > OVERLAP * approach).then(|| format!("the bodies overlap by {:.1e} of their approach", inside / approach))
+}
+
+/// Whether the run says that pressure grows without bound towards an end.
+fn is_singular_at_end(said: &Said) -> bool {
+    let zones = said.summary.pointer("/contact/c/zones").and_then(Value::as_array);
+    zones.into_iter().flatten().any(|zone| zone["singular_at_end"] == true)
 }
 
 /// Sum of the forces on the upper body along the axis, and of their sizes.
