@@ -124,6 +124,20 @@ impl Scene {
         self.bodies.iter().flat_map(|body| &body.parts).any(|part| part.heat.is_some())
     }
 
+    /// By how much the bodies would grow with what heats them (length), and the stress by which it would press if nothing gave way, at
+    /// the vertices; zeros if nothing is heated.
+    pub fn growth(&self) -> [f64; 2] {
+        let size = self.extents().iter().map(|extent| extent.radius).fold(0.0, f64::max);
+        let (parts, mut growth) = (self.parts(), [0.0f64; 2]);
+        for triangle in self.mesh.triangles.iter().filter(|triangle| parts[triangle.part as usize].heat.is_some()) {
+            let part = parts[triangle.part as usize];
+            let at = |vertex: u32| part.heat.as_ref().map_or(0.0, |heat| heat.growth(self.mesh.vertices[vertex as usize]).abs());
+            let strain = triangle.vertices.map(at).into_iter().fold(0.0, f64::max);
+            growth = [growth[0].max(strain * size), growth[1].max(strain * part.material.young)];
+        }
+        growth
+    }
+
     /// The law of each part, in the order of the mesh.
     pub fn laws(&self) -> Vec<PlaneLaw> {
         self.parts().into_iter().map(|part| part.material.law()).collect()

@@ -80,6 +80,9 @@ pub struct Summary {
     pub energy: Energy,
     /// Largest displacement of a node (length).
     pub displacement_max: Option<f64>,
+    /// By how much heat would let the bodies grow (length).
+    #[serde(skip)]
+    pub growth: f64,
     /// Largest strain by name of the body: the mean of the larger principal strain over a macro triangle.
     pub strain_max: BTreeMap<String, Option<f64>>,
     /// Mean rotation by name of the body, anticlockwise (radians).

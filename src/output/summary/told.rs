@@ -80,7 +80,9 @@ impl Summary {
 
     /// The largest force of a contact, or what is as small as rounding beside the forces that strain bodies, if that is larger.
     pub fn largest_force(&self) -> f64 {
-        let strains = self.energy.total.zip(self.displacement_max).map_or(0.0, |(energy, most)| 2.0 * energy.abs() / most);
+        // What is kept from growing moves nowhere.
+        let moved = self.displacement_max.map(|moved| moved.max(self.growth));
+        let strains = self.energy.total.zip(moved).map_or(0.0, |(energy, most)| 2.0 * energy.abs() / most);
         let least = if strains.is_finite() { LEFT_OF_FORCES * strains } else { 0.0 };
         self.contact.values().filter_map(|contact| contact.force).fold(least, |most: f64, force| most.max(force.abs()))
     }
@@ -204,6 +206,10 @@ mod tests {
         let mut pressed = summary(&[(None, 3.0)]);
         (pressed.energy.total, pressed.displacement_max) = (Some(1.0), Some(0.02));
         assert_eq!(pressed.largest_force(), 3.0);
+        pressed.displacement_max = Some(1e-15);
+        assert!(pressed.largest_force() > 3.0);
+        pressed.growth = 0.02;
+        assert_eq!(pressed.largest_force(), 3.0, "what is kept from growing is strained, and moves nowhere");
     }
 
     proptest! {

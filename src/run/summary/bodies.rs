@@ -42,7 +42,8 @@ pub fn largest_stresses(
         place: peak.place.into(),
         displacement: peak.displacement.into(),
     });
-    Ok(summed_up(&scene.mesh.bodies, &own.collect::<Vec<_>>(), status, &finer(case)))
+    let [_, pressed] = scene.growth();
+    Ok(summed_up(&scene.mesh.bodies, &own.collect::<Vec<_>>(), pressed, (status, &finer(case))))
 }
 
 /// What makes a mesh finer, in the terms of the case.
@@ -53,9 +54,14 @@ fn finer(case: &Case) -> String {
     }
 }
 
-/// The largest stress of each body out of those of its parts.
-fn summed_up(names: &[String], parts: &[PartStress], status: Status, finer: &str) -> Vec<(String, BodySummary)> {
-    let most = parts.iter().map(|part| part.now).fold(0.0, f64::max);
+/// The largest stress of each body out of those of its parts, beside that by which heat would press.
+fn summed_up(
+    names: &[String],
+    parts: &[PartStress],
+    pressed: f64,
+    (status, finer): (Status, &str),
+) -> Vec<(String, BodySummary)> {
+    let most = parts.iter().map(|part| part.now).fold(pressed, f64::max);
     let told = |part: &PartStress| {
         let verdict = stress_doubt(status, part, most, finer);
         let (von_mises_max, place, displacement) = (Some(part.now), Some(part.place), part.displacement);
@@ -141,7 +147,7 @@ mod tests {
         };
         let parts = [part("core", 0, 3.0, None), part("film", 0, 5.0, Some("at a corner")), part("block", 2, 4.0, None)];
         let names = ["coated", "tool", "block"].map(String::from);
-        let found = summed_up(&names, &parts, Status::Converged, "refine");
+        let found = summed_up(&names, &parts, 0.0, (Status::Converged, "refine"));
         let [(first, coated), (second, block)] = &found[..] else { panic!("nothing of a tool: {found:?}") };
         assert_eq!((&first[..], &second[..]), ("coated", "block"), "in the order of the mesh");
         assert_eq!((coated.von_mises_max, coated.part.as_deref(), coated.is_believed), (Some(5.0), Some("film"), false));
@@ -152,6 +158,8 @@ mod tests {
         );
         assert!(block.is_believed && block.part.is_none() && block.parts.is_empty() && block.verdict.is_none());
         assert_eq!((block.von_mises_max, block.displacement), (Some(4.0), [0.0, 1.0]));
+        let hot = summed_up(&names, &parts, 1e9, (Status::Converged, "refine"));
+        assert!(hot[0].1.is_believed, "stresses beside which heat presses by 1e9 are rounding");
     }
 
     #[test]

@@ -75,6 +75,7 @@ pub fn with_fields(before: Summary, case: &Case, found: &Evaluation) -> Result<S
         rotation: bodies().zip(found.deformations.iter().map(|body| Some(body.rotation))).collect(),
         rotation_max: bodies().zip(found.deformations.iter().map(|body| Some(body.turned))).collect(),
         displacement_max: Some(found.moved),
+        growth: found.problem.scene.growth()[0],
         probe: probes(case, found)?,
         plane: (case.plane == Plane::Revolution).then(|| "axisymmetric".into()),
         ..before
