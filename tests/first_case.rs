@@ -116,6 +116,27 @@ fn an_example_of_a_weight_presses_bodies_against_each_other() {
     assert!(ended.value("/contact/s/trust") == true && !ended.errors.contains("support b-still"), "{}", ended.said());
 }
 
+/// A block under another one, whose sides on x = 0 are called axis, the held one on top: the example presses the lower one up, along that
+/// line, in the plane and around it.
+#[test]
+fn an_example_of_a_weight_is_not_carried_by_a_line_of_symmetry() {
+    let block = |cells: usize, from: f64| grid(cells, 3, 5, move |u, v| [2.0 * u, from + v]);
+    let bodies = vec![
+        ("lower", block(6, -1.0), ["", "", "lower.seam", "lower.axis"]),
+        ("upper", block(5, 0.0), ["upper.seam", "", "base", "upper.axis"]),
+    ];
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    std::fs::write(folder.path().join("mesh.msh"), Mesh { bodies }.text()).expect("a mesh can be written");
+    let case = new_case(folder.path(), "mesh.msh");
+    let text = std::fs::read_to_string(&case).expect("a case");
+    let line = text.lines().find(|line| line.starts_with("body_force")).unwrap_or_else(|| panic!("no load in\n{text}"));
+    assert!(line.starts_with("body_force = [0.0, ") && line.contains("presses the body up"), "{line}");
+    for plane in ["strain", "axisymmetric"] {
+        let run = Run::file(&case).ranks(2).set("plane", format!("\"{plane}\"")).set("output.fields", false);
+        assert!(run.converged().number("/contact/seam/force") > 0.0, "{plane}");
+    }
+}
+
 /// A plate on a plate with a coarse disc on top, none of which is held by name: a case all the same, and one that is solved.
 #[test]
 fn three_free_bodies_make_a_case_that_runs() {

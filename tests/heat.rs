@@ -72,6 +72,41 @@ exact.body.lower.stress = [-7, -7, 0]
         let energy = ended.number("/energy/total");
         assert!((energy - 2.0 * 3.0 * 7.0 * 4e-4).abs() < 1e-9, "{words}: {energy}");
         assert!(ended.number("/balance/energy") < 1e-8, "{words}");
+        // Nothing moves: forces were taken for small beside an energy by no displacement, and stresses of rounding were compared.
+        assert_eq!(ended.value("/contact/seam/verdict"), "trusted", "{words}");
+        assert!(ended.value("/body/lower/is_believed") == true && ended.value("/body/lower/verdict").is_null(), "{words}");
+    }
+}
+
+/// A slab that cools between two blocks presses by rounding alone: no finer mesh tells more. It took 12 meshes and 1.8 million unknowns.
+#[test]
+fn no_mesh_is_adapted_to_what_rounding_presses() {
+    let block = |cells: usize, from: f64| grid(cells, 3, cells as u64, move |u, v| [5.0 * u, from + v]);
+    let bodies = vec![
+        ("low", block(11, -1.0), ["base", "", "low.seam", ""]),
+        ("mid", block(13, 0.0), ["mid.low", "", "mid.high", ""]),
+        ("up", block(9, 1.0), ["up.seam", "", "base", ""]),
+    ];
+    let case = r#"
+plane = "axisymmetric"
+mesh = { file = "mesh.msh", order = 2, refine = 1 }
+body.low = { young = 2e5, poisson = 0.3 }
+body.mid = { young = 1e5, poisson = 0.3, expansion = 2e-5, temperature = -100.0 }
+body.up = { young = 1.5e5, poisson = 0.25 }
+support.base = { on = "base", uy = 0.0 }
+contact.a = { between = ["low.seam", "mid.low"] }
+contact.b = { between = ["mid.high", "up.seam"] }
+accuracy.force = 1e-2
+"#;
+    let (_folder, file) = scene(&Mesh { bodies }, case);
+    for ranks in [1, 2] {
+        let ended = Run::file(&file).ranks(ranks).ended();
+        let meshes = ended.value("/accuracy").as_array().map_or(0, Vec::len);
+        assert!((1..3).contains(&meshes), "{ranks} ranks: {meshes} meshes, {}", ended.said());
+        for contact in ["a", "b"].map(|name| ended.value(&format!("/contact/{name}"))) {
+            let force = contact["force"].as_f64().expect("a force");
+            assert!(force.abs() < 1e-7 && contact["trust"] != false, "{ranks} ranks: {}", ended.said());
+        }
     }
 }
 

@@ -281,7 +281,10 @@ fn what_only_bodies_in_the_plane_have_is_refused() {
     told(mesh(), &[("support.held", "{ body = \"upper\", mean = true, ux = 1e-3 }")], "moves along its axis alone");
     told(mesh(), &[("support.held", "{ body = \"upper\", mean = true }")], "holds no mean motion; give uy = 0.0; in the plane ");
     told(mesh(), &[("exact.body.lower.stress", "[0, -3, 0]")], "lacks the hoop stress");
-    told(mesh(), &[("support.table.ux", "1e-3")], "the axis of revolution");
+    let words =
+        "the axis of revolution asks for displacement 0 in direction (1.000000, 0.000000) at (0, 0), support.shift for 0.001;";
+    told(mesh(), &[("support.shift", "{ on = \"left\", ux = 1e-3 }")], words);
+    told(mesh(), &[("load.left", "{ on = \"left\", pressure = 1.0 }")], "load.left.on: \"left\" lies on the axis of revolution");
 }
 
 /// What a case of the plane holds across the axis is held in bodies of revolution anyway, to the last digit.

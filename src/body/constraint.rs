@@ -277,7 +277,8 @@ fn combine(x: Point, holds: &[Hold]) -> Result<Constraint, String> {
         let along = u.dot(&hold.direction);
         // Against the whole displacement: two supports that fix a node leave rounding of it in the direction of a third.
         if (along - hold.value).abs() > 1e-9 * (u.norm() + hold.value.abs()) {
-            let mut others: Vec<_> = holds.iter().filter(|h| h.by != hold.by).map(|h| h.by.to_string()).collect();
+            let says_of_it = |other: &&Hold| other.by != hold.by && other.direction.dot(&hold.direction).abs() > SAME;
+            let mut others: Vec<_> = holds.iter().filter(says_of_it).map(|other| other.by.to_string()).collect();
             others.dedup();
             return Err(format!(
                 "{} asks for displacement {} in direction ({:.6}, {:.6}) at {}, {} for {}; leave one of them out there",

@@ -67,6 +67,7 @@ fn completed(case: &Case, mut mesh: MacroMesh) -> Result<MacroMesh, String> {
     check_means(case, &mesh)?;
     check_springs(case, &mesh)?;
     check_temperatures(case, &mesh)?;
+    check_loads_on_axis(case, &mesh)?;
     check_points(case, &mesh)?;
     check_exact(case, &mesh)?;
     Ok(mesh)
@@ -198,6 +199,17 @@ fn add_points(case: &Case, mesh: &mut MacroMesh) -> Result<(), String> {
         return Err(format!("load.{}.force: {words}", load.name));
     }
     Ok(())
+}
+
+/// A boundary on the axis of revolution has no area that a load could act on.
+fn check_loads_on_axis(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
+    let on_axis = |&edge: &u32| mesh.edges[edge as usize].vertices.iter().all(|&v| mesh.vertices[v as usize].x == 0.0);
+    let is_there = |edges: &[u32]| !edges.is_empty() && edges.iter().all(on_axis);
+    let lies_there = |name: &&String| mesh.plane == Plane::Revolution && is_there(mesh.edges_of(name));
+    let named = case.loads.iter().find_map(|load| Some((&load.name, load.on.iter().find(lies_there)?)));
+    named.map_or(Ok(()), |(load, name)| {
+        Err(format!("load.{load}.on: \"{name}\" lies on the axis of revolution, and has no area there; leave it out"))
+    })
 }
 
 /// A temperature has a value at every vertex of what it heats, where stresses are shown.

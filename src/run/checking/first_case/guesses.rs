@@ -48,9 +48,9 @@ pub enum Press {
 /// Directions in which the example may press bodies by a force per area, and their words: the first one that contact carries is taken.
 pub const DOWN: [(Point, &str); 4] = [
     (Point::new(0.0, -1.0), "down"),
+    (Point::new(0.0, 1.0), "up"),
     (Point::new(-1.0, 0.0), "to the left"),
     (Point::new(1.0, 0.0), "to the right"),
-    (Point::new(0.0, 1.0), "up"),
 ];
 
 /// A body that its own weight presses, as it were.
@@ -252,13 +252,17 @@ impl<'a> Guesses<'a> {
         loose.map(|body| Weight { body, force: one_digit(PRESSED * YOUNG * self.narrowest() / self.area(body)) }).collect()
     }
 
-    /// Whether weights may have another direction than down on the drawing: there are some, on bodies that are drawn touching. In a pile
-    /// that nothing holds by a name, three discs for example, they would open contacts.
+    /// Whether weights may have this direction, another one than down on the drawing: there are some, on bodies that are drawn touching, and
+    /// no line of symmetry carries them. In a pile that nothing holds by a name, three discs for example, they would open contacts.
     pub fn may_turn_weights(&self) -> bool {
         let touches = |body: usize| self.pairs.iter().any(|pair| pair.bodies.contains(&body) && pair.share() <= DRAWN);
         let is_pile = |body: usize| self.foundation().is_some() && self.partners(body).len() > 1;
+        let [across, along] = [self.down.0.x, self.down.0.y].map(|part| part != 0.0);
+        let is_free = |motions: [bool; 3]| across && motions[0] || along && motions[1];
+        let is_free = |body: usize| self.unresisted(body, [true; 3]).is_some_and(is_free);
+        let may_turn = |body: usize| touches(body) && !is_pile(body) && is_free(body);
         let weights = self.weights();
-        !weights.is_empty() && weights.iter().all(|weight| touches(weight.body) && !is_pile(weight.body))
+        !weights.is_empty() && weights.iter().all(|weight| may_turn(weight.body))
     }
 
     /// The force of the example on a boundary, for each length of thickness.

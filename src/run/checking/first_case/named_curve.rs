@@ -9,7 +9,7 @@ use crate::run::checking::node_circle::NodeCircle;
 pub const HELD: &str = "bottom base fixed fix clamp clamped ground floor foot foundation support wall root grip hold held mount anchor encastre casing";
 pub const LOADED: &str = "top load loaded press pressed pressure force punch push piston pull pulled tension drag lift traction";
 pub const PULLED: &str = "pull pulled tension drag lift traction";
-const MIRRORED: &str = "symmetry sym symm mirror";
+const MIRRORED: &str = "symmetry sym symm mirror symx symy symmx symmy xsym ysym xsymm ysymm";
 
 /// Last words in names of what sits on or in something that holds it. Before other words they name the body: `hub.outside` is free.
 const SEATS: [&str; 10] = ["bore", "axle", "axis", "hub", "shaft", "housing", "case", "frame", "carrier", "block"];
