@@ -356,3 +356,32 @@ exact = {{ must_hold = true, contact.seam.force = {{ value = 7.0, tolerance = 1e
         assert!(code == Some(2) && errors.contains("thickness = "), "{value}: {errors}");
     }
 }
+
+/// A block that is pressed down bulges into the one beside it: without a contact there it passes through, which is told.
+#[test]
+fn bodies_that_pass_through_each_other_without_a_contact_are_told() {
+    let block = |cells: usize, from: f64| grid(cells, 5, cells as u64, move |u, v| [from + u, v]);
+    let bodies = vec![
+        ("a", block(5, 0.0), ["a.bottom", "a.right", "a.top", ""]),
+        ("c", block(4, 1.02), ["", "c.right", "", "c.left"]),
+    ];
+    let case = r#"
+mesh = { file = "mesh.msh", refine = 1 }
+body = { a = { young = 10.0, poisson = 0.3 }, c = { young = 10.0, poisson = 0.3 } }
+support.a = { on = "a.bottom", ux = 0.0, uy = 0.0 }
+support.c = { on = "c.right", ux = 0.0, uy = 0.0 }
+load.a = { on = "a.top", pressure = 1.5 }
+"#;
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), case);
+    let words = "warning: \"a.right\" and \"c.left\" are in no contact, and lie in each other by ";
+    for ranks in [1, 2] {
+        let told = |set: Option<(&str, &str)>| {
+            let run = set.into_iter().fold(Run::file(&file).ranks(ranks), |run, (key, value)| run.set(key, value));
+            run.converged().errors.contains(words)
+        };
+        assert!(told(None), "{ranks} ranks");
+        assert!(!told(Some(("load.a.pressure", "0.3"))), "the gap stays open");
+        assert!(!told(Some(("contact.sides", "{ between = [\"a.right\", \"c.left\"] }"))), "they are in contact");
+    }
+}

@@ -3,6 +3,7 @@
 use super::balance::{Balance, balance};
 use super::contact_forces::ContactForce;
 use super::corners::{Corners, corners};
+use super::crossings::{Crossing, crossings};
 use super::cut_off::{SmoothJoints, smooth_joints};
 use super::deformation::{Deformation, deformations};
 use super::end_slip::{EndSlip, slip_at_ends};
@@ -84,6 +85,11 @@ impl<'a> Evaluation<'a> {
     /// The pressure on one of the contacts.
     pub fn pressure(&self, contact: usize) -> ContactPressure<'a> {
         self.solution.pressure(&self.problem.contacts[contact])
+    }
+
+    /// Boundaries without a contact that lie in each other. **Collective**
+    pub fn crossings(&self) -> Vec<Crossing> {
+        crossings(self.problem, self.solution, self.moved)
     }
 
     /// Growth of the bodies of a contact by their turning, relative to the smallest gap at `points`; nothing if it is rounding

@@ -19,6 +19,7 @@ mod balance;
 mod cell_energies;
 mod contact_forces;
 mod corners;
+mod crossings;
 mod cut_off;
 mod deformation;
 mod direction_error;

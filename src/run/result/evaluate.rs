@@ -13,7 +13,7 @@ use crate::run::verdict::exact::compare;
 use crate::run::verdict::no_result::{NO_NUMBERS, no_result};
 use crate::run::verdict::trust;
 use crate::run::verdict::unresolved::{pressed_by_rounding, pulled, unresolved};
-use crate::run::verdict::warnings::after::{apart, large_strains, loaded_points, slivers};
+use crate::run::verdict::warnings::after::{apart, crossed, large_strains, loaded_points, slivers};
 use crate::run::verdict::warnings::before::{IDLE, TO_DRIVE};
 use crate::run::{Run, accuracy};
 use std::collections::{BTreeMap, BTreeSet};
@@ -58,6 +58,7 @@ impl Run<'_> {
         progress::enter(Work::Recovery);
         let found = Evaluation::new(&solved.problem, &solved.solution)?;
         self.report.warn_all(&large_strains(&found));
+        self.report.warn_all(&crossed(&found));
         if !solved.is_idle() {
             self.report.warn_all(&loaded_points(&found));
         }

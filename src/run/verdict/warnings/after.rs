@@ -58,6 +58,19 @@ pub fn large_strains(found: &Evaluation) -> Vec<String> {
     words.collect()
 }
 
+/// Bodies that pass through each other, since the case has no contact there.
+pub fn crossed(found: &Evaluation) -> Vec<String> {
+    let crossings = found.crossings().into_iter();
+    let words = crossings.map(|crossing| {
+        let ([a, b], [x, y]) = (&crossing.between, [crossing.place.x, crossing.place.y].map(short));
+        format!(
+            "\"{a}\" and \"{b}\" are in no contact, and lie in each other by {:.2e} near ({x}, {y}): the bodies pass through each other there; if they are to touch, paste what `mezha check` proposes, [contact.NAME] between = [\"{a}\", \"{b}\"]",
+            crossing.depth
+        )
+    });
+    words.collect()
+}
+
 /// What is said of an adapted mesh that is too large for its accuracy, if slivers of the file are left in many places.
 pub fn slivers(mesh: &MacroMesh) -> Option<String> {
     let angles = (0..mesh.triangles.len()).map(|triangle| mesh.smallest_angle(triangle).to_degrees());
