@@ -103,10 +103,12 @@ fn places(root: &Table, key: &str) -> Result<Vec<Vec<String>>, String> {
     }
     let kinds = || SCALED.map(|(kind, _)| format!("{kind}.NAME")).join(", ");
     let of_kind = |kind: &str| SCALED.iter().find(|(known, _)| *known == kind);
-    let (name, single) = match names[..] {
-        [_, name] => (name, None),
-        [_, name, single] => (name, Some(single)),
-        _ => ("", None),
+    let (name, part, single) = match names[..] {
+        [_, name] => (name, None, None),
+        ["body", name, "part", part] => (name, Some(part), None),
+        ["body", name, "part", part, single] => (name, Some(part), Some(single)),
+        [_, name, single] => (name, None, Some(single)),
+        _ => ("", None, None),
     };
     let Some(&(kind, keys)) = names.first().and_then(|kind| of_kind(kind)).filter(|_| !name.is_empty()) else {
         return Err(format!("cannot be scaled; what can is {}, one of their keys, and gravity", kinds()));
@@ -121,7 +123,8 @@ fn places(root: &Table, key: &str) -> Result<Vec<Vec<String>>, String> {
         return Err(format!("cannot be scaled: of a {kind} that is {}, not {single}", keys.join(", ")));
     }
     let mut found = Vec::new();
-    for (below, table) in with_parts(table) {
+    let is_meant = |below: &[String]| part.is_none_or(|part| below.last().is_some_and(|own| own == part));
+    for (below, table) in with_parts(table).filter(|(below, _)| is_meant(below)) {
         let scaled = keys.iter().filter(|key| single.is_none_or(|single| single == **key) && table.contains_key(**key));
         found.extend(scaled.map(|key| [&path[..2], &below, &[(*key).to_string()]].concat()));
     }

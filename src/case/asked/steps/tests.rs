@@ -1,7 +1,7 @@
 //! What steps scale, and in which words they are refused.
 
 use super::*;
-use crate::body::LoadKind;
+use crate::body::{BodyPart, LoadKind};
 use crate::case::Case;
 use crate::case::tests::{error_of, good, parse};
 use crate::contact::GapChoice;
@@ -118,4 +118,23 @@ fn a_step_is_the_case_with_everything_scaled_and_the_last_one_is_the_case() {
     assert_eq!(expects, [false, false, true], "expected values are those of the last step");
     assert!(case.resolved().contains("[steps.p]") && !case.steps[2].case.resolved().contains("steps"));
     assert!(parse(&good(), &["steps={}"]).unwrap().steps.is_empty());
+}
+
+#[test]
+fn one_part_of_a_body_is_scaled_or_one_value_of_it() {
+    let parts = |scales: &str| {
+        let part = "{young = 1, poisson = 0.3, body_force = [2, 4], expansion = 1e-5, temperature = 8}";
+        let body = format!("body.a={{part = {{core = {part}, rim = {part}}}}}");
+        let case = parse(&good(), &[&body, &format!("steps.p={{factors=[0.5], scales=['{scales}']}}")]).unwrap();
+        let told = |part: &BodyPart| {
+            let temperature = part.heat.as_ref().map(|heat| heat.temperature.value(&[0.0; 2]));
+            (part.force[1].value(&[0.0; 2]), temperature.expect("it is heated"))
+        };
+        case.steps[0].case.bodies[0].parts.iter().map(told).collect::<Vec<_>>()
+    };
+    assert_eq!(parts("body.a"), [(2.0, 4.0), (2.0, 4.0)]);
+    assert_eq!(parts("body.a.part.rim"), [(4.0, 8.0), (2.0, 4.0)]);
+    assert_eq!(parts("body.a.part.core.temperature"), [(4.0, 4.0), (4.0, 8.0)]);
+    let words = error_of(&good(), &["steps.p={factors=[1], scales=['body.a.part.core']}"]);
+    assert!(words.contains("\"body.a.part.core\" has nothing to scale"), "{words}");
 }
