@@ -361,10 +361,8 @@ exact = {{ must_hold = true, contact.seam.force = {{ value = 7.0, tolerance = 1e
 #[test]
 fn bodies_that_pass_through_each_other_without_a_contact_are_told() {
     let block = |cells: usize, from: f64| grid(cells, 5, cells as u64, move |u, v| [from + u, v]);
-    let bodies = vec![
-        ("a", block(5, 0.0), ["a.bottom", "a.right", "a.top", ""]),
-        ("c", block(4, 1.02), ["", "c.right", "", "c.left"]),
-    ];
+    let bodies =
+        vec![("a", block(5, 0.0), ["a.bottom", "a.right", "a.top", ""]), ("c", block(4, 1.02), ["", "c.right", "", "c.left"])];
     let case = r#"
 mesh = { file = "mesh.msh", refine = 1 }
 body = { a = { young = 10.0, poisson = 0.3 }, c = { young = 10.0, poisson = 0.3 } }
