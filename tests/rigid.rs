@@ -380,6 +380,7 @@ fn mistakes_are_told() {
         (format!("{}rigid.die = {{ line = [[0, 1], [1, 1], [2, 1]] }}", contact.replace("\"line\"", "\"rigid.die\"")), "name the one that touches in between, as \"rigid.die.1\""),
         ("contact.top = { between = [\"rigid.a\", \"rigid.b\"] }\nrigid.a = { line = [[0, 1], [1, 1]] }\nrigid.b = { line = [[0, 1], [1, 1]] }".into(), "both sides are rigid"),
         ("load.plate = { on = \"top\", rigid = true }".into(), "presses with nothing"),
+        ("load.plate = { on = \"top\", rigid = true, uy = -1e-3 }".into(), "is moved is a [support] with ux and uy"),
         ("load.plate = { on = \"top\", rigid = true, force = [0, 1], pressure = 2 }".into(), "stands beside rigid"),
         ("load.plate = { on = \"top\", force = [0, 1] }".into(), "rigid = true"),
         ("load.plate = { on = \"tap\", rigid = true, force = [0, 1] }".into(), "load.plate.on"),

@@ -226,11 +226,13 @@ fn has_unbounded_peak(Solved { problem, solution, estimate, .. }: &Solved, at: u
 
 /// Whether heat leaves nothing but rounding on a contact.
 fn is_rounding_of_heat(Solved { problem, solution, .. }: &Solved, at: usize) -> bool {
-    let contact = &problem.contacts[at];
+    let (scene, contact) = (&problem.scene, &problem.contacts[at]);
     let force = solution.pressure(contact).force().abs();
     let length = contact.boundary.length();
-    let pressed = || problem.scene.growth()[1] * length * contact.boundary.width(contact.boundary.parameter_at(0.5 * length));
-    problem.scene.is_heated() && force > 0.0 && force < ROUNDING_OF_HEAT * pressed()
+    let least = ROUNDING_OF_HEAT * length * contact.boundary.width(contact.boundary.parameter_at(0.5 * length));
+    // No temperature is looked at for a force that a whole modulus of pressure would not make rounding.
+    let stiffest = || scene.young().into_iter().filter(|young| young.is_finite()).fold(0.0, f64::max);
+    scene.is_heated() && force > 0.0 && force < least * stiffest() && force < least * scene.growth()[1]
 }
 
 /// The place of a contact among all.

@@ -11,7 +11,7 @@ mod kernel;
 
 use self::elimination::Elimination;
 use crate::body::{Applied, BodyPart, Load, MeanHold, PointLoad, applied_forces, body_forces, rigid_displacement};
-use crate::contact::{Programme, ProgrammeOutcome, Side, added_up, describe_motion};
+use crate::contact::{Law, Programme, ProgrammeOutcome, Side, added_up, describe_motion};
 use crate::discretisation::{BY_ROUNDING, Contact, Coupled, Scene, SystemError, bilateral, coupled_here};
 use crate::geometry::{Formula, Point};
 use crate::mesh::Numbering;
@@ -228,9 +228,10 @@ impl<'s> Predictor<'s> {
             false => "let a support on one of its boundaries, or at a point of it, carry what acts on it".into(),
         };
         let turned = if is_pushed_off { "" } else { "turn the load round if it is meant to press the bodies together, or " };
-        let words = format!(
-            "{name} can {motion}: {by} {drive} it there, and neither contact, which only pushes, nor a support holds it; {turned}{hold}"
-        );
+        let pulls = self.scene.pairs.iter().any(|pair| pair.law == Law::Bilateral);
+        let contact = if pulls { "contact" } else { "contact, which only pushes," };
+        let words =
+            format!("{name} can {motion}: {by} {drive} it there, and neither {contact} nor a support holds it; {turned}{hold}");
         Ok(Prediction::Driven { words, turns })
     }
 

@@ -27,12 +27,12 @@ const FLAT: f64 = 0.25;
 
 /// Poisson's ratio above which a sweep is slow, in the plane and of a body of revolution. A thin shell of revolution (P2, 1.5·10⁴
 /// unknowns, two ranks) takes 13 iterations with 0.45, 15 with 0.46, 18 with 0.47 and 25 with 0.49; a thick sphere of P1 and P2 (1.8·10³
-/// to 4.3·10⁵ unknowns) 11 to 14 with 0.43, 13 to 15 with 0.44 and 13 to 16 with 0.45.
+/// to 4.3·10⁵ unknowns) 12 to 14 with 0.43, 13 to 15 with 0.44 and 13 to 16 with 0.45.
 const STIFF: [f64; 2] = [0.45, 0.43];
 
 /// Poisson's ratio above which steps of CG are slow, too, where the rows of the finest mesh are stored. Bars of P2 and 2.6·10⁵
 /// unknowns without levels take 11 to 15 iterations with 0.494, in the time of a factor, and 32 to 39 with 0.499, in three times its
-/// time. Bars of P1 lose: with 0.494 and 6.5·10⁴ unknowns the factor takes 1.4 times as long. A thick sphere of P2 takes 12 to 14
+/// time. Bars of P1 lose: with 0.494 and 6.5·10⁴ unknowns the factor takes 1.4 times as long. A thick sphere of P2 takes 13 to 14
 /// iterations with 0.492, 13 to 16 with 0.494, in four fifths of the factor's time, and 37 with 0.496, in twice its time (1.1·10⁵ unknowns).
 const STIFFEST: [f64; 2] = [0.494, 0.491];
 
