@@ -99,7 +99,8 @@ pub struct Plate {
 pub fn read_plate(section: &Section, on: Vec<String>) -> Option<Plate> {
     section.refuse(&["pressure", "traction"], "stands beside rigid = true; give force and moment, or make two loads");
     if !section.has("force") && !section.has("moment") {
-        let moved = if section.has("ux") || section.has("uy") { "; a boundary that is moved is a [support] with ux and uy" } else { "" };
+        let moved =
+            if section.has("ux") || section.has("uy") { "; a boundary that is moved is a [support] with ux and uy" } else { "" };
         let words = "presses with nothing; give force = [fx, fy], moment, or both beside rigid = true";
         section.problem(&[], format!("{words}{moved}"));
     }
