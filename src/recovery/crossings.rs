@@ -8,7 +8,8 @@ use crate::discretisation::{BoundaryMotion, Discretisation, Scene, Solution};
 use crate::geometry::Point;
 use crate::mesh::EdgeNode;
 
-/// An overlap of less than this share of the largest displacement is not told: corners that pass along each other, rounding.
+/// An overlap of less than this share of the largest displacement is not told: corners that pass along each other, rounding. None of the
+/// cases of the project, and of 140 scenes that others drew only one that lacks a contact, has a larger one.
 const TOLD: f64 = 1e-2;
 
 /// Two boundaries without a contact that lie in each other.

@@ -11,8 +11,8 @@
 //! with `W = V` but for `(I - C D) B R` beside the multipliers, and in the plain form `K R` in the place of `K R + Bᵀ D B R` in `V`
 //! alone. `E` is regular where contact or springs of a mesh resist: of means the last row tells `q` and the one before `μ`, of
 //! rigid sets there is a small matrix left. So `(A - V E⁻¹ Wᵀ) x = b - V E⁻¹ h` is the system of the unknowns `x` alone, at the
-//! price of one sum over ranks for each product, however many motions there are. So is a mean that no active multiplier knows of: loads
-//! may drive it.
+//! price of one sum over ranks for each product, however many motions there are. A mean that no active multiplier knows of has its
+//! columns, too: loads may drive it.
 
 use super::augmentation::Augmentation;
 use super::coupling_rows::CouplingRows;

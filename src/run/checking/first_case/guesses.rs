@@ -258,8 +258,8 @@ impl<'a> Guesses<'a> {
         let touches = |body: usize| self.pairs.iter().any(|pair| pair.bodies.contains(&body) && pair.share() <= DRAWN);
         let is_pile = |body: usize| self.foundation().is_some() && self.partners(body).len() > 1;
         let [across, along] = [self.down.0.x, self.down.0.y].map(|part| part != 0.0);
-        let is_free = |motions: [bool; 3]| across && motions[0] || along && motions[1];
-        let is_free = |body: usize| self.unresisted(body, [true; 3]).is_some_and(is_free);
+        let goes_there = |motions: [bool; 3]| across && motions[0] || along && motions[1];
+        let is_free = |body: usize| self.unresisted(body, [true; 3]).is_some_and(goes_there);
         let may_turn = |body: usize| touches(body) && !is_pile(body) && is_free(body);
         let weights = self.weights();
         !weights.is_empty() && weights.iter().all(|weight| may_turn(weight.body))
