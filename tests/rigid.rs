@@ -275,6 +275,32 @@ contact.seam = {{ between = [\"top\", \"rigid.roller\"] }}\n"
     assert!(centre.said().contains("lay the reference point (about)"), "{}", centre.said());
 }
 
+/// A line whose force acts beyond its end tips: it is to be held by a key of its own, since no support is one of a tool.
+#[test]
+fn a_tool_that_tips_is_told_to_hold_its_turn_itself() {
+    let tool = "rigid.die = { line = [[0.2, 1.0], [1.2, 1.0]], about = [1.6, 1.0], ux = 0.0, force = [0.0, -5.0]";
+    let case = format!(
+        "{BLOCK}support.left = {{ on = \"left\", ux = 0.0 }}\ncontact.top = {{ between = [\"top\", \"rigid.die\"] }}\n{tool}"
+    );
+    let tips = in_folder(&block(), &format!("{case} }}\n"), |run| run.ranks(2).ended());
+    assert!(tips.code == Some(3) && tips.said().contains("hold its turn: give [rigid.die] angle = 0.0"), "{}", tips.said());
+    let held = in_folder(&block(), &format!("{case}, angle = 0.0 }}\n"), |run| run.ranks(2).converged());
+    close(held.number("/contact/top/force"), 5.0, 5.0, "it is pressed down");
+}
+
+/// A wave presses with its force on any mesh: one on which it lies in the block by a tenth of what it has come down is refined all the same.
+#[test]
+fn a_force_that_is_given_leaves_no_mesh_on_which_bodies_lie_in_each_other() {
+    let case = format!(
+        "{BLOCK}support.left = {{ on = \"left\", ux = 0.0 }}\ncontact.top = {{ between = [\"top\", \"rigid.wave\"] }}\naccuracy.force = 1e-2
+         rigid.wave = {{ x = \"t\", y = \"1 + 0.002*(1 - cos(8*t))\", t = [-0.5, 2.5], ux = 0.0, angle = 0.0, force = [0.0, -0.5] }}\n"
+    );
+    let ended = in_folder(&block(), &case, |run| run.set("mesh.refine", 0).ranks(2).converged());
+    let meshes = ended.value("/accuracy").as_array().map_or(0, Vec::len);
+    let [depth, approach] = ["depth", "approach"].map(|key| ended.number(&format!("/contact/top/{key}")));
+    assert!(meshes > 1 && depth < 0.1 * approach, "{meshes} meshes, {depth} of {approach}: {}", ended.said());
+}
+
 #[test]
 fn a_roller_that_nothing_holds_is_told() {
     let case = format!(

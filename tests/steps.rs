@@ -181,6 +181,30 @@ fn weights_and_gaps_are_scaled() {
     assert!((number(&all[3], "/displacement_max") - 0.3).abs() < 0.01, "the wide gap stays open");
 }
 
+/// A formula that a step multiplies by zero is a load of zero: nothing acts, and the block that contact alone holds stays as it is drawn.
+#[test]
+fn a_step_without_a_load_is_one_where_nothing_acts() {
+    let block = |seed, y: f64| grid(3, 2, seed, move |u, v| [2.0 * u, y + v]);
+    let mesh = Mesh {
+        bodies: vec![
+            ("lower", block(1, 0.0), ["bottom", "right", "lower.seam", "left"]),
+            ("upper", block(2, 1.0), ["upper.seam", "right", "top", "left"]),
+        ],
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), GOOD);
+    let steps_of = "{ factors = [0.0, 1.0, 0.0], scales = [\"load.top\"] }";
+    for load in ["\"1.0 + 0.1*x\"", "1.0"] {
+        let ended = Run::file(&file).set("steps.p", steps_of).set("load.top.pressure", load).ranks(2).converged();
+        let all = steps(&ended);
+        for at in [0, 2] {
+            let reason = all[at]["reason"].as_str().expect("words");
+            assert!(reason.starts_with("nothing loads, moves or presses the bodies"), "{load}, {at}: {reason}");
+        }
+        close(number(&all[1], "/contact/seam/force"), if load == "1.0" { 2.0 } else { 2.2 }, 2.0, load);
+    }
+}
+
 /// A block that nothing but contact holds is lifted in the second step: that is told, and the others are solved.
 #[test]
 fn a_step_that_comes_to_nothing_is_told_and_the_others_are_solved() {

@@ -8,6 +8,7 @@ use super::pair::{Configuration, CurveChoice, Pair, SegmentRule};
 use super::side::Side;
 use super::smooth_side::{Displacement, SmoothSide};
 use crate::contact::fit::{Meeting, PointContact, stray};
+use crate::element::Order;
 use crate::geometry::{Coordinates, Curve, Point};
 use crate::mesh::{BoundaryEdge, MacroMesh, Numbering};
 pub use looking::faces;
@@ -30,6 +31,7 @@ pub struct Known {
 }
 
 /// A contact boundary with what it was placed by.
+#[derive(Clone)]
 pub struct Placed {
     /// Γ_C, cut.
     pub boundary: ContactBoundary,
@@ -39,6 +41,14 @@ pub struct Placed {
     pub meeting: Option<Meeting>,
     /// Edges of body 1 and of body 2 that it lies between.
     pub edges: [Vec<BoundaryEdge>; 2],
+}
+
+impl Placed {
+    /// Γ_C where it lies, cut into segments by the rule of the pair, or into so many as are known; the rest as of [`place`].
+    pub fn cut(&mut self, order: Order, pair: &Pair, young: [f64; 2], known: Option<usize>) {
+        let fractions = fractions(&self.edges, order, pair, young, &self.boundary, known);
+        self.boundary.cut(&fractions);
+    }
 }
 
 /// Places Γ_C of a pair and cuts it into segments. `young` are the moduli of body 1 and body 2 (stress); `numbering`
@@ -89,7 +99,7 @@ pub fn place(
         away(a).total_cmp(&away(b))
     });
     let Some(nearest) = nearest else { return Err(format!("\"{}\" has no edges", pair.between[0])) };
-    let mut boundary = ContactBoundary::new(curve, range, nearest.outward()).in_plane(mesh.plane);
+    let boundary = ContactBoundary::new(curve, range, nearest.outward()).in_plane(mesh.plane);
     check_grading(pair, &boundary)?;
     if pair.curve.is_found() {
         [Side::First, Side::Second]
@@ -99,11 +109,13 @@ pub fn place(
     } else {
         check_cover(mesh, pair, sides, &boundary)?;
     }
-    boundary.cut(&fractions(&edges, numbering.level.order, pair, young, &boundary, known.segments));
-    if let Some((meeting, smooth)) = fitted.as_ref().filter(|_| pair.curve == CurveChoice::Fit) {
-        check_stray(meeting.sides(smooth), &boundary, pair)?;
+    let (meeting, smooth) = fitted.unzip();
+    let mut placed = Placed { boundary, limits, meeting, edges };
+    placed.cut(numbering.level.order, pair, young, known.segments);
+    if let Some((meeting, smooth)) = placed.meeting.as_ref().zip(smooth).filter(|_| pair.curve == CurveChoice::Fit) {
+        check_stray(meeting.sides(&smooth), &placed.boundary, pair)?;
     }
-    Ok(Placed { boundary, limits, meeting: fitted.map(|(meeting, _)| meeting), edges })
+    Ok(placed)
 }
 
 /// Segments to an edge at most: shorter ones tell nothing, and their active set changes one by one.

@@ -1,5 +1,6 @@
 //! The mesh of the file: triangles of named bodies, edges, named boundaries.
 
+use super::boundaries::{Boundaries, Boundary};
 use super::curve_piece::{CurvePiece, LooseCurve};
 use super::raw_mesh::{RawMesh, RawTriangle};
 use super::{FilePlace, MeshError};
@@ -82,17 +83,6 @@ impl MacroEdge {
     }
 }
 
-/// A physical curve: macro edges on the boundary of one body or several.
-#[derive(Clone, Debug)]
-pub struct Boundary {
-    /// Name in the mesh file.
-    pub name: String,
-    /// Macro edges of the curve.
-    pub edges: Vec<u32>,
-    /// Whether the case has made it of several physical curves.
-    pub is_union: bool,
-}
-
 /// A physical surface of the file: a body, or a part of one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Surface {
@@ -131,9 +121,9 @@ pub struct MacroMesh {
     /// Pieces of the bodies, which hang together by edges; one for each body in most meshes.
     pub pieces: Vec<BodyPiece>,
     /// Physical curves that bound bodies.
-    pub boundaries: Vec<Boundary>,
+    pub boundaries: Boundaries,
     /// Physical curves between parts of one body.
-    pub interfaces: Vec<Boundary>,
+    pub interfaces: Boundaries,
     /// Physical curves that bound no body: they are left aside.
     pub loose: Vec<LooseCurve>,
     /// Vertices at points that the case names.
@@ -283,19 +273,15 @@ impl MacroMesh {
         if parts[0] == parts[1] {
             return Err(refused("lies inside a body"));
         }
-        let (same_kind, other_kind) =
-            if parts[1].is_none() { (&self.boundaries, &self.interfaces) } else { (&self.interfaces, &self.boundaries) };
-        if other_kind.iter().any(|curve| curve.name == name) {
+        let bounds_body = parts[1].is_none();
+        let other_kind = if bounds_body { &self.interfaces } else { &self.boundaries };
+        if other_kind.named(&name).is_some() {
             return Err(refused("lies between parts of a body while others bound one: name them apart"));
         }
-        let at = same_kind.iter().position(|curve| curve.name == name);
-        let curves = if parts[1].is_none() { &mut self.boundaries } else { &mut self.interfaces };
-        let at = at.unwrap_or_else(|| {
-            curves.push(Boundary { name, edges: Vec::new(), is_union: false });
-            curves.len() - 1
-        });
+        let curves = if bounds_body { &mut self.boundaries } else { &mut self.interfaces };
+        let (at, edges) = curves.edges_mut(name);
         if placed.insert((at, edge)) {
-            curves[at].edges.push(edge);
+            edges.push(edge);
         }
         Ok(())
     }
@@ -308,7 +294,7 @@ impl MacroMesh {
 
     /// The boundary of that name, if the mesh has it.
     pub fn boundary(&self, name: &str) -> Option<&Boundary> {
-        self.boundaries.iter().find(|boundary| boundary.name == name)
+        self.boundaries.named(name)
     }
 
     /// Macro edges of the boundary of that name; none if the mesh has no such.

@@ -51,6 +51,7 @@
 //! What it costs: every rank holds the macro mesh. PETSc's DMPlex does not need that, but took 14.5 s where this takes 1.4 s to
 //! read, distribute and refine to 1 million triangles, and gave NaN coordinates for second-order Gmsh files.
 
+mod boundaries;
 mod chain;
 mod curve_piece;
 mod curved;
@@ -71,6 +72,7 @@ mod revolution;
 pub(crate) mod samples;
 mod tools;
 
+pub use boundaries::{Boundaries, Boundary};
 pub use chain::Stretch;
 pub use curve_piece::{CurvePiece, LooseCurve};
 pub use curved::{BoundaryVertex, Corner, SmoothNormals, SmoothPoint};
@@ -78,7 +80,7 @@ pub use faults::Slit;
 pub use file::{parse_gmsh, read_bytes, read_regular, surfaces, touching_surfaces};
 pub use levels::{BoundaryEdge, EdgeNode, Level, Numbering, Shapes, TriangleNumbers, levels};
 pub use lists::{Lists, each_once};
-pub use macro_mesh::{BodyPiece, Boundary, MacroEdge, MacroMesh, MacroTriangle, NamedPoint, Region, Spot, Surface};
+pub use macro_mesh::{BodyPiece, MacroEdge, MacroMesh, MacroTriangle, NamedPoint, Region, Spot, Surface};
 pub use partition::{Graph, Partition, middle_of_group};
 pub use refined::{BisectedMesh, Cells, Origin};
 

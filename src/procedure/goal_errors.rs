@@ -1,12 +1,14 @@
 //! Estimated errors of the goals of an accuracy.
 
-use crate::accuracy::{CUT, Goal, HERTZ_BY_UNRESOLVED, ProbePoint, Quantity, ROUNDING_BY_OVERLAP, WORTH_WITHIN_SEGMENTS};
-use crate::contact::{Law, Zone};
-use crate::discretisation::{Contact, Discretisation, Field, SystemError, needed_contacts};
+use crate::accuracy::{
+    CUT, DEEPEST, Goal, HERTZ_BY_UNRESOLVED, LEFT, ProbePoint, Quantity, ROUNDING_BY_OVERLAP, WORTH_WITHIN_SEGMENTS,
+};
+use crate::contact::{Law, Penetration, Zone};
+use crate::discretisation::{BoundaryMotion, Contact, Discretisation, Field, SystemError, needed_contacts};
 use crate::procedure::estimates::AtEnds;
 use crate::procedure::settings::Procedure;
 use crate::procedure::solved::Solved;
-use crate::recovery::{smooth_joints, trace_points, unresolved_force};
+use crate::recovery::{penetration_of, smooth_joints, trace_points, unresolved_force};
 
 /// Error of λ above which it is not known where it presses.
 const MOST_UNKNOWN: f64 = 0.08;
@@ -14,9 +16,9 @@ const MOST_UNKNOWN: f64 = 0.08;
 /// Share of the largest force up to which it is asked whether a contact carries less than is asked for.
 const SMALL: f64 = 0.5;
 
-/// A force below this share of that by which heat would press all over a contact, if nothing gave way, is what solves leave: 1e-13 of it
-/// between bodies that part by cooling (1.8 million unknowns). A weight of 4e-10 of it on a hot plate was right to seven digits.
-const ROUNDING_OF_HEAT: f64 = 1e-12;
+/// A force below this share of what would press if a contact took up the largest displacement, `E_c u`, is what solves leave: 1e-13 of it
+/// between bodies that part by cooling (1.8 million unknowns), 2e-13 where one slides along another. A weight of 4e-10 of it on a hot plate was right to seven digits.
+const LEFT_BY_SOLVES: f64 = 1e-11;
 
 /// Differences in the energy norm that say that the solution was there before.
 const ROUNDING: f64 = 1e-6;
@@ -55,7 +57,7 @@ impl Procedure<'_> {
         let estimate = &solved.estimate;
         let at = quantity.contact().and_then(|name| contact_called(&solved.problem, name));
         if let Some(at) = at {
-            if is_rounding_of_heat(solved, at) {
+            if is_rounding(solved, at) {
                 return Ok(Some(0.0));
             }
             // What carries less than is asked for of the largest force needs no zone to be resolved.
@@ -108,14 +110,14 @@ impl Procedure<'_> {
         Ok(if own + worth > tolerance * largest && is_needed() { own } else { own + worth } / largest)
     }
 
-    /// Whether what a contact carries beyond a share of the largest force presses on less than an edge, or bodies lie in each other within
-    /// segments that are longer than what presses. **Collective**
+    /// Whether what a contact carries beyond a share of the largest force presses on less than an edge, or bodies lie in each other, within
+    /// segments that are longer than what presses or elsewhere. **Collective**
     fn is_unresolved(&self, solved: &Solved, at: usize, tolerance: f64) -> Result<bool, SystemError> {
         let Solved { problem, solution, .. } = solved;
         let force = |contact: &Contact| solution.pressure(contact).force().abs();
         let (contact, own) = (&problem.contacts[at], force(&problem.contacts[at]));
         let least = tolerance * problem.contacts.iter().map(force).fold(0.0, f64::max);
-        if own <= least || is_rounding_of_heat(solved, at) {
+        if own <= least || is_rounding(solved, at) {
             return Ok(false);
         }
         let u = Field::displacement(problem, &solution.displacement);
@@ -125,7 +127,14 @@ impl Procedure<'_> {
         let is_within_segments = off > WORTH_WITHIN_SEGMENTS * own && HERTZ_BY_UNRESOLVED * off > least;
         let has_few_edges = pressure.has_few_edges(least);
         let is_cut = smooth_joints(at, problem, solution).cut > CUT;
-        Ok(is_cut || is_within_segments || has_few_edges && pressure.is_too_narrow(&problem.scene.mesh, &points, least))
+        let is_too_narrow = has_few_edges && pressure.is_too_narrow(&problem.scene.mesh, &points, least);
+        if is_cut || is_within_segments || is_too_narrow {
+            return Ok(true);
+        }
+        // A tool whose force is given presses by it on any mesh.
+        let motion = BoundaryMotion::new(&problem.scene, problem.finest(), &solution.displacement, &problem.session);
+        let Penetration { depth, approach, .. } = penetration_of(problem, &motion, contact, own);
+        Ok(depth > (DEEPEST * approach).max(LEFT * largest_displacement(solved)))
     }
 
     /// Whether rounding alone presses where bodies lie in each other within segments, and nothing drives a body that could move then: meshes
@@ -224,15 +233,21 @@ fn has_unbounded_peak(Solved { problem, solution, estimate, .. }: &Solved, at: u
     zones.iter().any(|zone| pressure.grows_at_joint(zone).is_some()) || zones.iter().zip(&estimate.at_ends(at)).any(grows)
 }
 
-/// Whether heat leaves nothing but rounding on a contact.
-fn is_rounding_of_heat(Solved { problem, solution, .. }: &Solved, at: usize) -> bool {
-    let (scene, contact) = (&problem.scene, &problem.contacts[at]);
+/// Whether rounding alone presses on a contact: that of bodies which move, or grow by heat, along it or away from it. **Collective**
+fn is_rounding(solved: &Solved, at: usize) -> bool {
+    let Solved { problem, solution, .. } = solved;
+    let (contact, moved) = (&problem.contacts[at], largest_displacement(solved));
+    let boundary = &contact.boundary;
+    let width = boundary.width(boundary.parameter_at(0.5 * boundary.length()));
+    let modulus = contact.moduli.iter().copied().fold(0.0, f64::max);
     let force = solution.pressure(contact).force().abs();
-    let length = contact.boundary.length();
-    let least = ROUNDING_OF_HEAT * length * contact.boundary.width(contact.boundary.parameter_at(0.5 * length));
-    // No temperature is looked at for a force that a whole modulus of pressure would not make rounding.
-    let stiffest = || scene.young().into_iter().filter(|young| young.is_finite()).fold(0.0, f64::max);
-    scene.is_heated() && force > 0.0 && force < least * stiffest() && force < least * scene.growth()[1]
+    force > 0.0 && force < LEFT_BY_SOLVES * modulus * width * moved
+}
+
+/// Largest component of the displacement of any node (length). **Collective**
+fn largest_displacement(Solved { problem, solution, .. }: &Solved) -> f64 {
+    let [largest] = problem.session.max([solution.displacement.iter().fold(0.0, |most: f64, value| most.max(value.abs()))]);
+    largest
 }
 
 /// The place of a contact among all.

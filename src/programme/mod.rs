@@ -222,6 +222,9 @@ impl<'s> Predictor<'s> {
         let (name, body) = (self.scene.mesh.name_of_piece(piece), &self.scene.bodies[self.scene.mesh.pieces[piece].body].name);
         let motion = &mechanism.motion;
         let hold = match turns {
+            true if self.scene.is_rigid(self.scene.mesh.pieces[piece].body) => {
+                format!("hold its turn: give [{body}] angle = 0.0")
+            }
             true => {
                 format!("hold its turn, in its mean say: [support.{body}] with mean = true, body = \"{body}\" and angle = 0.0")
             }

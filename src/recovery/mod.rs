@@ -51,7 +51,7 @@ pub use deformation::Deformation;
 pub use evaluation::Evaluation;
 pub use heat::{HeatEnergy, heat_energies};
 pub use motion_error::MotionError;
-pub use overlaps::{missing_beyond, unresolved_force};
+pub use overlaps::{missing_beyond, penetration_of, unresolved_force};
 pub use probe::{Probed, Probing, holding, probe, shapes_at, stress_around, stress_forces};
 pub use singular_places::unbounded_at;
 pub use stress::NodalStress;

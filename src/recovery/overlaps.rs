@@ -70,34 +70,37 @@ pub fn unresolved_force(contact: &Contact, points: &[TracePoint], moved: f64) ->
     points.windows(2).map(part).sum::<f64>()
 }
 
-/// For each contact, with its force (per thickness, of a body of revolution that of the whole); ranks take them in turn. Bodies that
-/// lie along each other from the beginning come together by what strains them: a pressure p over a width w moves a boundary by about
-/// `2 p w/E`. **Collective**
+/// For each contact, with its force (per thickness, of a body of revolution that of the whole); ranks take them in turn. **Collective**
 pub fn penetrations(problem: &Discretisation, solution: &Solution, forces: &[f64]) -> Vec<Penetration> {
-    let (mesh, space) = (&problem.scene.mesh, problem.finest());
-    let motion = BoundaryMotion::new(&problem.scene, space, &solution.displacement, &problem.session);
-    let displacement = |node: EdgeNode| motion.at(node, mesh, space);
+    let motion = BoundaryMotion::new(&problem.scene, problem.finest(), &solution.displacement, &problem.session);
     let mut values = vec![0.0; 5 * problem.contacts.len()];
     for (at, contact) in
         problem.contacts.iter().enumerate().filter(|(at, _)| at % problem.session.size() == problem.session.rank())
     {
-        let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
-        let boundary = &contact.boundary;
-        let [first, last] = boundary.ends();
-        let away = |place| {
-            let foot = boundary.foot(place);
-            (foot - last).max(0.0) + (foot - first).min(0.0)
-        };
-        let Penetration { depth, place, beyond, approach } = penetration(&sides, &contact.pair, away);
-        let softest = contact.moduli.iter().copied().fold(f64::INFINITY, f64::min);
-        // The force of a body of revolution is that of the whole ring.
-        let width = mesh.plane.width(boundary.point(boundary.parameter_at(0.5 * boundary.length())));
-        let approach = approach.max(2.0 * forces[at].abs() / (width * softest));
+        let Penetration { depth, place, beyond, approach } = penetration_of(problem, &motion, contact, forces[at]);
         values[5 * at..5 * at + 5].copy_from_slice(&[depth, place.x, place.y, beyond, approach]);
     }
     problem.session.sum(&mut values);
     let found = |&[depth, x, y, beyond, approach]: &[f64; 5]| Penetration { depth, place: Point::new(x, y), beyond, approach };
     values.as_chunks().0.iter().map(found).collect()
+}
+
+/// Of one contact with its force, on bodies that have moved. Bodies that lie along each other from the beginning come together by what
+/// strains them: a pressure p over a width w moves a boundary by about `2 p w/E`.
+pub fn penetration_of(problem: &Discretisation, motion: &BoundaryMotion, contact: &Contact, force: f64) -> Penetration {
+    let (mesh, space, boundary) = (&problem.scene.mesh, problem.finest(), &contact.boundary);
+    let displacement = |node: EdgeNode| motion.at(node, mesh, space);
+    let sides = SmoothSide::of_pair(mesh, &space.numbering, &contact.pair, &displacement);
+    let [first, last] = boundary.ends();
+    let away = |place| {
+        let foot = boundary.foot(place);
+        (foot - last).max(0.0) + (foot - first).min(0.0)
+    };
+    let found = penetration(&sides, &contact.pair, away);
+    let softest = contact.moduli.iter().copied().fold(f64::INFINITY, f64::min);
+    // The force of a body of revolution is that of the whole ring.
+    let width = mesh.plane.width(boundary.point(boundary.parameter_at(0.5 * boundary.length())));
+    Penetration { approach: found.approach.max(2.0 * force.abs() / (width * softest)), ..found }
 }
 
 #[cfg(test)]

@@ -183,6 +183,8 @@ fn times(value: &Value, factor: f64) -> Value {
     match value {
         Value::Integer(number) => Value::from(factor * *number as f64),
         Value::Float(number) => Value::from(factor * number),
+        // What is nothing is seen to be nothing: nothing acts then.
+        Value::String(_) if factor == 0.0 => Value::from(0.0),
         Value::String(formula) => Value::from(format!("{factor:?}*({formula})")),
         Value::Array(list) => Value::from(list.iter().map(|entry| times(entry, factor)).collect::<Vec<_>>()),
         other => other.clone(),

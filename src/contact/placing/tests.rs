@@ -25,7 +25,7 @@ fn holes_at_any_place_are_refused() {
     for line in [[[-1.0, 1.0], [2.0, 1.0]], [[0.0, 1.0], [3.0, 1.0]]] {
         assert!(cover(&mesh, Curve::Line(line)).unwrap_err().contains("has a hole between"));
     }
-    mesh.boundaries.iter_mut().filter(|b| b.name == "upper.seam").for_each(|b| b.edges.truncate(1));
+    mesh.boundaries.edges_mut("upper.seam".into()).1.truncate(1);
     assert!(cover(&mesh, Curve::Line([[0.0, 1.0], [2.0, 1.0]])).unwrap_err().contains("\"upper.seam\" has a hole"));
 }
 
@@ -54,7 +54,7 @@ fn rounding_bends_no_line_and_a_bend_is_one_anywhere() {
     for far in [0.0, 1e8] {
         for (bend, straight) in [(0.0, true), (1e-3, false)] {
             let mut mesh = two_blocks();
-            mesh.boundaries.iter_mut().for_each(|boundary| boundary.edges.sort());
+            ["lower.seam", "upper.seam"].into_iter().for_each(|name| mesh.boundaries.edges_mut(name.into()).1.sort());
             for x in &mut mesh.vertices {
                 let bent = if x.y == 1.0 { bend * x.x * (2.0 - x.x) } else { 0.0 };
                 // Turned, so that the coordinates of the line are rounded.

@@ -2,7 +2,7 @@
 
 use crate::contact::{
     Configuration, ContactBoundary, Displacement, Distance, Facing, GapChoice, Jump, Known, MultiplierSpace, Multipliers, Pair,
-    Stabilise, Zone, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
+    Placed, Stabilise, Zone, jumps, place, safe_ratio_of, segment_edge_lengths, segment_ratio,
 };
 use crate::discretisation::contacts::side_materials::SideMaterials;
 use crate::discretisation::error::SystemError;
@@ -141,12 +141,54 @@ impl Contact {
         known: &Known,
         displacement: Displacement,
     ) -> Result<Self, SystemError> {
-        let sides = [0, 1].map(|k| scene.mesh.edges_of(&pair.between[k]).to_vec());
+        let placed = Self::placed(scene, numbering, pair, known, displacement)?;
+        Ok(Self::on(scene, numbering, rank, pair, first, known, placed))
+    }
+
+    /// Γ_C of one contact, placed between all of its edges.
+    ///
+    /// # Errors
+    /// As of [`Contact::all_again`].
+    pub(crate) fn placed(
+        scene: &Scene,
+        numbering: &Numbering,
+        pair: &Pair,
+        known: &Known,
+        displacement: Displacement,
+    ) -> Result<Placed, SystemError> {
+        let young = SideMaterials::new(scene, &sides(scene, pair)).ruling();
+        let placed = place(&scene.mesh, numbering, pair, young, known, displacement);
+        placed.map_err(|words| SystemError::Case(format!("contact.{}: {words}", pair.name)))
+    }
+
+    /// One contact on a Γ_C that was placed for it, or for a pair that differs in how it is cut alone: this one's rule cuts it.
+    pub(crate) fn cut_anew(
+        scene: &Scene,
+        numbering: &Numbering,
+        pair: &Pair,
+        first: usize,
+        known: &Known,
+        mut placed: Placed,
+    ) -> Self {
+        let young = SideMaterials::new(scene, &sides(scene, pair)).ruling();
+        placed.cut(numbering.level.order, pair, young, known.segments);
+        Self::on(scene, numbering, 0, pair, first, known, placed)
+    }
+
+    /// One contact on a Γ_C that was placed and cut for it.
+    pub(crate) fn on(
+        scene: &Scene,
+        numbering: &Numbering,
+        rank: usize,
+        pair: &Pair,
+        first: usize,
+        known: &Known,
+        placed: Placed,
+    ) -> Self {
+        let sides = sides(scene, pair);
         let bodies = [0, 1].map(|k: usize| scene.mesh.body_beside(sides[k][0]));
         let materials = SideMaterials::new(scene, &sides);
         let young = materials.ruling();
-        let placed = place(&scene.mesh, numbering, pair, young, known, displacement)
-            .map_err(|words| format!("contact.{}: {words}", pair.name))?;
         let (boundary, all) = (placed.boundary, placed.edges);
         let own = |edge: &&BoundaryEdge| scene.partition.owner(edge.triangle as u32) == rank;
         let edges = all.each_ref().map(|edges| edges.iter().filter(own).cloned().collect());
@@ -169,7 +211,7 @@ impl Contact {
         let measured = matches!(pair.gap, GapChoice::Geometry);
         let shapes = measured.then(|| sides.each_ref().map(|edges| scene.mesh.smooth_curves(edges)));
         let (ends, segments) = (Some(boundary.ends()), Some(boundary.segments()));
-        Ok(Self {
+        Self {
             pair: pair.clone(),
             known: Known { meeting: placed.meeting, ends, segments, coarser: known.coarser, touch: known.touch },
             found: None,
@@ -191,7 +233,7 @@ impl Contact {
             safe_ratio,
             shapes,
             jumps,
-        })
+        }
     }
 
     /// Whether its segments are shorter than its pair of spaces allows.
@@ -263,6 +305,11 @@ impl Contact {
         };
         self.boundary.knots().windows(2).map(owner).collect()
     }
+}
+
+/// Macro edges of both boundaries of a pair.
+fn sides(scene: &Scene, pair: &Pair) -> [Vec<u32>; 2] {
+    pair.between.each_ref().map(|name| scene.mesh.edges_of(name).to_vec())
 }
 
 /// Edges of a boundary by the parameters of Γ_C that they lie at, one after the other.

@@ -1,6 +1,6 @@
 //! How far the sides of a contact face each other within reach, on undeformed bodies.
 
-use crate::contact::{Configuration, CurveChoice, Known, Meeting, Pair, SmoothSide, point_contact, swings};
+use crate::contact::{Configuration, CurveChoice, Known, Meeting, Pair, Placed, SmoothSide, point_contact, swings};
 use crate::discretisation::contacts::contact::Contact;
 use crate::discretisation::contacts::coupling::coupled_here;
 use crate::discretisation::scene::Scene;
@@ -13,11 +13,11 @@ const PARTS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 
 /// What places a contact as far as its sides face each other within reach: the widest stretch, about the place where they touch first,
 /// on which the normals of Γ_C meet both; where the sides are drawn nearest, if there is none, or if the curve is declared, or if its
-/// ends stay where it is placed. All edges are on this rank.
-pub fn widest(scene: &Scene, numbering: &Numbering, pair: &Pair) -> Known {
+/// ends stay where it is placed. Γ_C comes with it if it was placed for that. All edges are on this rank.
+pub fn widest(scene: &Scene, numbering: &Numbering, pair: &Pair) -> (Known, Option<Placed>) {
     let at_rest = |_| Point::zeros();
     if !pair.curve.is_found() || !pair.has_free_ends() {
-        return Known::default();
+        return Default::default();
     }
     let sides = SmoothSide::of_pair(&scene.mesh, numbering, pair, &at_rest);
     let lies_between = |contact: &Contact| {
@@ -26,13 +26,13 @@ pub fn widest(scene: &Scene, numbering: &Numbering, pair: &Pair) -> Known {
         meeting.begin(&mut begun);
         !swings(meeting.sides(&begun), &contact.boundary, pair)
     };
-    let can_be_measured = |known: &Known| {
-        let contact = Contact::new(scene, numbering, 0, pair, 0, known, &at_rest);
+    let measured = |known: Known| {
+        let placed = Contact::placed(scene, numbering, pair, &known, &at_rest).ok()?;
+        let contact = Contact::on(scene, numbering, 0, pair, 0, &known, placed.clone());
         // Beyond the end of a round side its curve goes on straight, where the side itself has no edge.
-        let faces = |contact: &Contact| contact.edges.iter().all(|edges| !edges.is_empty());
-        contact.is_ok_and(|contact| {
-            faces(&contact) && lies_between(&contact) && coupled_here(std::slice::from_ref(&contact)).is_ok()
-        })
+        let faces = contact.edges.iter().all(|edges| !edges.is_empty());
+        let is_measured = faces && lies_between(&contact) && coupled_here(std::slice::from_ref(&contact)).is_ok();
+        is_measured.then_some((known, Some(placed)))
     };
     let whole = |meeting: &Meeting| Known { meeting: Some(meeting.clone()), ..Known::default() };
     let parts = |meeting: &Meeting, touch: Option<f64>| {
@@ -42,9 +42,8 @@ pub fn widest(scene: &Scene, numbering: &Numbering, pair: &Pair) -> Known {
     };
     let mut meetings = Vec::new();
     for meeting in Meeting::within_reach(&sides, pair) {
-        let known = whole(&meeting);
-        if can_be_measured(&known) {
-            return known;
+        if let Some(widest) = measured(whole(&meeting)) {
+            return widest;
         }
         meetings.push(meeting);
     }
@@ -55,7 +54,7 @@ pub fn widest(scene: &Scene, numbering: &Numbering, pair: &Pair) -> Known {
         all.iter().flat_map(|(meeting, touch)| parts(meeting, *touch)).collect()
     };
     let about = parts_of(&touched).into_iter().chain(std::iter::once(Known::default())).chain(parts_of(&others));
-    about.into_iter().find(can_be_measured).unwrap_or_default()
+    about.into_iter().find_map(measured).unwrap_or_default()
 }
 
 /// Parameter of Γ_C at which the sides touch first, if it has that of body 1's side, and if that is not at an end of where they meet.

@@ -19,8 +19,7 @@ impl MacroMesh {
     pub fn bend(&mut self, geometry: &str, boundaries: &[String], curve: &Curve) -> Result<(), MeshError> {
         let curve = Arc::new(curve.clone());
         for name in boundaries {
-            let curves = || self.boundaries.iter().chain(&self.interfaces);
-            let Some(boundary) = curves().find(|curve| curve.name == *name) else {
+            let Some(boundary) = self.boundaries.named(name).or_else(|| self.interfaces.named(name)) else {
                 let known = self.physical_curves().into_iter().chain(&self.interfaces);
                 let known = known.map(|b| format!("\"{}\"", b.name)).collect::<Vec<_>>().join(", ");
                 return Err(

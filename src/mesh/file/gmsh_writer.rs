@@ -1,7 +1,8 @@
 //! Writer of Gmsh 4.1 ASCII files.
 
 use crate::geometry::{Point, bounds};
-use crate::mesh::macro_mesh::{Boundary, MacroMesh, MacroTriangle};
+use crate::mesh::boundaries::Boundary;
+use crate::mesh::macro_mesh::{MacroMesh, MacroTriangle};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 

@@ -1,8 +1,9 @@
 //! Meshes made of the triangles of others: edges are found again, with their shapes and their boundaries.
 
 use crate::geometry::Point;
+use crate::mesh::boundaries::Boundary;
 use crate::mesh::curve_piece::CurvePiece;
-use crate::mesh::macro_mesh::{BodyPiece, Boundary, MacroMesh, MacroTriangle};
+use crate::mesh::macro_mesh::{BodyPiece, MacroMesh, MacroTriangle};
 
 impl MacroMesh {
     /// The bodies of this mesh without its triangles, to be given others: [`MacroMesh::add_part`], then [`MacroMesh::divide_edges`].
@@ -62,9 +63,8 @@ impl MacroMesh {
             });
             Boundary { edges: parts.collect(), ..curve.clone() }
         };
-        let [boundaries, interfaces] =
+        [mesh.boundaries, mesh.interfaces] =
             [&before.boundaries, &before.interfaces].map(|all| all.iter().map(&divided_curve).collect());
-        (mesh.boundaries, mesh.interfaces) = (boundaries, interfaces);
         mesh
     }
 }

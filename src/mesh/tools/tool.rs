@@ -5,8 +5,9 @@
 
 use crate::element::Plane;
 use crate::geometry::{Curve, Point, cross, turn_right};
+use crate::mesh::boundaries::Boundary;
 use crate::mesh::curve_piece::CurvePiece;
-use crate::mesh::macro_mesh::{BodyPiece, Boundary, MacroMesh, MacroTriangle, Surface};
+use crate::mesh::macro_mesh::{BodyPiece, MacroMesh, MacroTriangle, Surface};
 use std::f64::consts::TAU;
 
 /// Points of a curve at which sizes are asked for.

@@ -1,7 +1,8 @@
 //! The mesh of the bodies alone, as a file may hold it.
 
+use crate::mesh::boundaries::Boundary;
 use crate::mesh::lists::Kept;
-use crate::mesh::macro_mesh::{Boundary, MacroEdge, MacroMesh, MacroTriangle, NamedPoint};
+use crate::mesh::macro_mesh::{MacroEdge, MacroMesh, MacroTriangle, NamedPoint};
 
 impl MacroMesh {
     /// The mesh without the layers of rigid tools, which come after all bodies of the file: a case adds its own.

@@ -150,12 +150,13 @@ fn wide_contact(
     thin: &[Thinness],
 ) -> Result<WideContact, SystemError> {
     let at_rest = |_: EdgeNode| Point::zeros();
-    let known = widest(scene, numbering, pair);
     let even = Pair { space: MultiplierSpace::P0, stabilise: Stabilise::Off, ..pair.clone() };
-    let contact = Contact::new(scene, numbering, 0, &even, first, &known, &at_rest)?;
+    let (known, placed) = widest(scene, numbering, &even);
+    let placed = placed.map_or_else(|| Contact::placed(scene, numbering, &even, &known, &at_rest), Ok)?;
+    let contact = Contact::on(scene, numbering, 0, &even, first, &known, placed.clone());
     if !contact.has_free_ends() {
         // Where ends stay, so do the segments: what presses is told as the case has it.
-        let contact = Contact::new(scene, numbering, 0, pair, first, &known, &at_rest)?;
+        let contact = Contact::cut_anew(scene, numbering, pair, first, &known, placed);
         return Ok(WideContact { known, contact, touch: None });
     }
     let (boundary, touch) = (&contact.boundary, touch(scene, numbering, &contact, thin));
@@ -167,7 +168,7 @@ fn wide_contact(
         fractions = cut_to(&fractions, FINE);
     }
     let graded = Pair { segments: SegmentRule::Fractions(fractions), grading: [1.0, 1.0], ..even };
-    let contact = Contact::new(scene, numbering, 0, &graded, first, &known, &at_rest)?;
+    let contact = Contact::cut_anew(scene, numbering, &graded, first, &known, placed);
     Ok(WideContact { known, contact, touch })
 }
 

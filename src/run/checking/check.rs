@@ -22,12 +22,13 @@ use crate::run::verdict::warnings::loose::pulled_off;
 use crate::run::words::units;
 use crate::run::{accuracy, memory};
 use std::path::Path;
+use std::rc::Rc;
 
 /// Names that a pattern stands for which are told.
 const MOST_MATCHED: usize = 5;
 
 /// What a look at a case finds.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Checked {
     /// What would be solved.
     pub words: String,
@@ -39,6 +40,8 @@ pub struct Checked {
     /// Contacts, rigid tools and supports that may be missing, as TOML to paste, with words before them; empty if there is nothing to
     /// propose.
     pub proposals: String,
+    /// The case and its mesh, as they were read, to be drawn.
+    pub(super) read: (Case, Rc<MacroMesh>),
 }
 
 /// The same of a case file, after the overrides `KEY=VALUE`.
@@ -72,9 +75,9 @@ pub fn check(case: &Case) -> Result<Checked, RunError> {
 fn describe(case: &Case) -> Result<Checked, RunError> {
     let bytes = scene::read_mesh_file(case).map_err(RunError::Input)?;
     origin::result_before(case, &bytes).map_err(RunError::Input)?;
-    let mesh = scene::read_mesh(case, &bytes).map_err(RunError::Input)?;
+    let mesh = Rc::new(scene::read_mesh(case, &bytes).map_err(RunError::Input)?);
     let slits = slits(&mesh);
-    let scene = scene::first(case, mesh)?;
+    let scene = scene::first(case, Rc::clone(&mesh))?;
     let not_held_before = check_steps(case, &scene)?;
     let at_rest = Procedure::look(&scene, 0)?;
     check_pressures(case, &at_rest.contacts).map_err(RunError::Key)?;
@@ -111,7 +114,7 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
         before => before,
     };
     let proposals = proposals(case, &scene.mesh, not_held.is_some());
-    Ok(Checked { words: lines.join("\n"), warnings, not_held, proposals })
+    Ok(Checked { words: lines.join("\n"), warnings, not_held, proposals, read: (case.clone(), mesh) })
 }
 
 /// What a pattern of the case stands for: of many the number and the first.

@@ -1,5 +1,6 @@
 //! The figure of `mezha check`: what of a case can be read, with all names.
 
+use super::check::Checked;
 use super::proposals::short;
 use crate::body::{Load, LoadKind, RigidSet, SpringStiffness, Springs, Support};
 use crate::case::{Case, read_text};
@@ -33,7 +34,7 @@ const BESIDE: f64 = 0.15;
 const MOST_REMARKS: usize = 8;
 const LONGEST_REMARK: usize = 84;
 
-/// Draws what can be read of a case file after the overrides `KEY=VALUE`, with the words of an error if there is one; `figure`
+/// Draws a case that was `checked`, or what can be read of its file after the overrides `KEY=VALUE` with the words of the error; `figure`
 /// tells from the name of the case where to. Nothing is drawn where there is no mesh to speak of.
 ///
 /// # Errors
@@ -41,19 +42,19 @@ const LONGEST_REMARK: usize = 84;
 pub fn draw_case(
     file: &Path,
     overrides: &[String],
-    error: Option<&RunError>,
+    checked: &Result<Checked, RunError>,
     figure: impl Fn(&str) -> PathBuf,
 ) -> Result<Option<PathBuf>, RunError> {
-    let Ok(text) = read_text(file, "case") else { return Ok(None) };
-    let case = Case::parse(&text, file, overrides).ok().or_else(|| Case::draft(&text, file, overrides));
-    let drawn = case.and_then(|case| Some((readable_mesh(&case)?, case)));
-    let Some((mesh, case)) = drawn else { return Ok(None) };
-    let mut content = content(&case, &mesh);
-    if let Some(error) = error {
-        content.remarks = remarks(&error.to_string(), file);
-    }
+    let (name, content) = match checked {
+        Ok(Checked { read: (case, mesh), .. }) => (case.name.clone(), content(case, mesh)),
+        Err(error) => {
+            let Some((case, mesh)) = readable(file, overrides) else { return Ok(None) };
+            let remarks = remarks(&error.to_string(), file);
+            (case.name.clone(), SceneFigure { remarks, ..content(&case, &mesh) })
+        }
+    };
     let Some(svg) = content.svg() else { return Ok(None) };
-    let path = figure(&case.name);
+    let path = figure(&name);
     write_figure(&path, &svg)?;
     Ok(Some(path))
 }
@@ -71,10 +72,13 @@ fn write_figure(path: &Path, svg: &str) -> Result<(), RunError> {
     written.map_err(|error| RunError::Input(format!("{}: the figure cannot be written: {error}", path.display())))
 }
 
-/// The mesh of a case as it is solved on, or as far as it can be read.
-fn readable_mesh(case: &Case) -> Option<MacroMesh> {
-    let bytes = scene::read_mesh_file(case).ok()?;
-    scene::read_mesh(case, &bytes).ok().or_else(|| scene::read_bare_mesh(case, &bytes))
+/// A case and its mesh as they are solved, or as far as they can be read.
+fn readable(file: &Path, overrides: &[String]) -> Option<(Case, MacroMesh)> {
+    let text = read_text(file, "case").ok()?;
+    let case = Case::parse(&text, file, overrides).ok().or_else(|| Case::draft(&text, file, overrides))?;
+    let bytes = scene::read_mesh_file(&case).ok()?;
+    let mesh = scene::read_mesh(&case, &bytes).ok().or_else(|| scene::read_bare_mesh(&case, &bytes))?;
+    Some((case, mesh))
 }
 
 /// The lines of an error, without the name of the case file, broken where they are long.

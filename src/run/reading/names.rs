@@ -61,7 +61,7 @@ impl Names<'_> {
 
     fn check_boundary(&self, key: &str, name: &str) -> Result<(), String> {
         let is_shape = key.starts_with("geometry.");
-        let is_inside = self.mesh.interfaces.iter().any(|curve| curve.name == name);
+        let is_inside = self.mesh.interfaces.named(name).is_some();
         if self.mesh.boundary(name).is_some() || is_shape && is_inside {
             return Ok(());
         }

@@ -128,7 +128,8 @@ pub fn spread(case: &Case, mesh: MacroMesh, session: &Session) -> Result<Scene, 
 }
 
 /// The scene that a case begins with, on one rank: with an accuracy that on the first mesh of the sequence.
-pub fn first(case: &Case, mesh: MacroMesh) -> Result<Scene, RunError> {
+pub fn first(case: &Case, mesh: impl Into<Rc<MacroMesh>>) -> Result<Scene, RunError> {
+    let mesh = mesh.into();
     let partition = Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
     let scene = assemble(case, mesh, partition);
     Ok(match &case.accuracy {

@@ -1,12 +1,14 @@
 //! Whether a solution is one of what the case says: not if its mesh, or its contact boundaries, cannot hold that.
 
-use crate::accuracy::{HERTZ_BY_UNRESOLVED, NARROWEST, ROUNDING_BY_OVERLAP, WORTH_WITHIN_SEGMENTS, share_of_nothing};
+use crate::accuracy::{
+    DEEPEST, HERTZ_BY_UNRESOLVED, LEFT, NARROWEST, ROUNDING_BY_OVERLAP, WORTH_WITHIN_SEGMENTS, share_of_nothing,
+};
 use crate::case::Case;
 use crate::contact::{Configuration, Law, Pair, SegmentRule};
 use crate::output::Summary;
 use crate::output::summary::ContactSummary;
 use crate::procedure::MOVES;
-use crate::run::verdict::limits::{DEEPEST, FORCE_OFF, LEFT, OVERLAP_ALONE};
+use crate::run::verdict::limits::{FORCE_OFF, OVERLAP_ALONE};
 use crate::run::verdict::trust::{finer_mesh, refinements_wanted, slip_doubt, width};
 use crate::run::words::short;
 

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::body::{BodyPart, LoadKind};
-use crate::case::Case;
 use crate::case::tests::{error_of, good, parse};
+use crate::case::{Case, LoadStep};
 use crate::contact::GapChoice;
 
 #[test]
@@ -118,6 +118,13 @@ fn a_step_is_the_case_with_everything_scaled_and_the_last_one_is_the_case() {
     assert_eq!(expects, [false, false, true], "expected values are those of the last step");
     assert!(case.resolved().contains("[steps.p]") && !case.steps[2].case.resolved().contains("steps"));
     assert!(parse(&good(), &["steps={}"]).unwrap().steps.is_empty());
+}
+
+#[test]
+fn a_formula_times_zero_is_seen_to_be_nothing() {
+    let case = parse(&good(), &["load.l.pressure='1 + x'", "steps.p={factors=[0, 1], scales=['load.l']}"]).unwrap();
+    let nothing = |step: &LoadStep| step.case.loads[0].kind.formulas().iter().all(|formula| formula.is_zero());
+    assert_eq!(case.steps.iter().map(nothing).collect::<Vec<_>>(), [true, false]);
 }
 
 #[test]

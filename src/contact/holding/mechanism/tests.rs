@@ -218,6 +218,20 @@ fn a_push_changes_forces_as_statics_says() {
     assert_eq!(changed_forces(&pieces, &supports[..3], &flat, (1, [1.0, 0.0, 0.0])), None);
     let by_ends = changed_forces(&pieces, turn, &flat, (1, [0.0, 0.0, 1.0])).expect("its ends resist it");
     assert!(by_ends[0][0].abs() < 1e-6 && (by_ends[0][1] - 1.0).abs() < 1e-6, "{by_ends:?}");
+    // Where round sides meet on either side of a disc that does not turn, what presses moves along them.
+    let round = [pieces[0], Extent { middle: Point::new(1.0, 2.0), radius: 1.0 }];
+    let side = |up: f64| {
+        let sees = |piece: usize, turn: f64, sign: f64| {
+            let at = |a: f64| {
+                let normal = sign * Point::new((turn * a).sin(), up * (turn * a).cos());
+                one_point(&round, piece, Some(1 - piece), 1.0 + a.sin(), 2.0 + up * a.cos(), normal)
+            };
+            [-0.1, 0.0, 0.1].map(at).to_vec()
+        };
+        [sees(0, 0.5, -1.0), sees(1, 1.0, 1.0)]
+    };
+    let moved = changed_forces(&round, &held, &[side(1.0), side(-1.0)], (1, [1.0, 0.0, 0.0])).expect("both resist it");
+    assert!(moved.iter().all(|[sum, size]| sum.abs() < 1e-6 && *size < 1e-6), "{moved:?}");
     // A disc that turns presses elsewhere.
     let (round, below, contact) = disc(0.1, 0.0);
     assert_eq!(changed_forces(&round, &below, &[contact], (1, [0.0, 0.0, 1.0])), None);

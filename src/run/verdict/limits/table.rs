@@ -230,12 +230,7 @@ pub const P1_STIFF: f64 = 0.45;
 /// Overlap of bodies between which nothing presses, relative to the displacements.
 pub const PASSED_THROUGH: f64 = 0.05;
 
-// What is not resolved. In all cases of the project no depth is above 3 % of the approach.
-
-/// How deep bodies may lie in each other, as a share of how far they have come together; a depth by less than `LEFT` of the
-/// largest displacement is what the solve leaves.
-pub const DEEPEST: f64 = 0.1;
-pub const LEFT: f64 = 1e-6;
+// What is not resolved.
 
 /// Relative error of a force by turning and sliding of its bodies. What is estimated is .55 to 1.5 times the true error
 /// (`tests/turning.rs`); a pile that cannot stand stood with .55, since turned discs are larger ones.

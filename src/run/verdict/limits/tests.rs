@@ -1,7 +1,7 @@
 //! Sentences of limits, and what the documents say of them.
 
 use super::*;
-use crate::accuracy::{NARROWEST, WORTH_WITHIN_SEGMENTS};
+use crate::accuracy::{DEEPEST, NARROWEST, WORTH_WITHIN_SEGMENTS};
 use crate::procedure::MOVES;
 
 /// Every row of the table, with its figure.
