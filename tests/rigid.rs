@@ -282,8 +282,12 @@ fn a_tool_that_tips_is_told_to_hold_its_turn_itself() {
     let case = format!(
         "{BLOCK}support.left = {{ on = \"left\", ux = 0.0 }}\ncontact.top = {{ between = [\"top\", \"rigid.die\"] }}\n{tool}"
     );
-    let tips = in_folder(&block(), &format!("{case} }}\n"), |run| run.ranks(2).ended());
-    assert!(tips.code == Some(3) && tips.said().contains("hold its turn: give [rigid.die] angle = 0.0"), "{}", tips.said());
+    let tips = in_folder(&block(), &format!("{case}, moment = 0.0 }}\n"), |run| run.ranks(2).ended());
+    assert!(
+        tips.code == Some(3) && tips.said().contains("hold its turn: give [rigid.die] angle = 0.0 in the place of its moment"),
+        "{}",
+        tips.said()
+    );
     let held = in_folder(&block(), &format!("{case}, angle = 0.0 }}\n"), |run| run.ranks(2).converged());
     close(held.number("/contact/top/force"), 5.0, 5.0, "it is pressed down");
 }

@@ -223,7 +223,7 @@ impl<'s> Predictor<'s> {
         let motion = &mechanism.motion;
         let hold = match turns {
             true if self.scene.is_rigid(self.scene.mesh.pieces[piece].body) => {
-                format!("hold its turn: give [{body}] angle = 0.0")
+                format!("hold its turn: give [{body}] angle = 0.0 in the place of its moment")
             }
             true => {
                 format!("hold its turn, in its mean say: [support.{body}] with mean = true, body = \"{body}\" and angle = 0.0")

@@ -1,6 +1,6 @@
 //! What a place of a side sees.
 
-use crate::geometry::Point;
+use crate::geometry::{Point, cross};
 
 /// Cosine of the angle between two outward normals that face each other, at most (120 degrees).
 const OPPOSITE: f64 = -0.5;
@@ -22,8 +22,7 @@ impl Sight {
             return None;
         }
         let way = other.place - self.place;
-        let along = way.dot(&self.normal);
-        let aside = (way - along * self.normal).norm();
+        let (along, aside) = (way.dot(&self.normal), cross(way, self.normal).abs());
         let is_near = (-behind..=ahead).contains(&along) && aside <= 0.5 * along.abs() + self.spacing + other.spacing;
         is_near.then_some(along)
     }
