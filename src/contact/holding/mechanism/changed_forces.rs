@@ -4,9 +4,10 @@ use super::{Condition, Extent, Holding, LEAST_HOLD, Touch};
 use nalgebra::{DVector, Vector3};
 
 /// For each closed contact the force by which it changes when a piece is pushed, with a moment about its middle by the radius, and the sum
-/// of all that presses more there or less, but for curved sides, on which what presses moves along instead (rollers of a bearing whose
-/// cage holds them against a two-thousandth of their force would change by .02 to .07 of it): what equilibrium says where that sets the forces, and else of contacts that are alike. Nothing
-/// if supports and contacts do not resist the push, whichever body's normals count, or if a body is to turn that may roll.
+/// of all that presses more there or less; where sides are curved what presses moves along them instead, and the sum of the force alone
+/// counts (a disc of a pile had .07 of its force for 2e-5 by which it changes): what equilibrium says where that sets the forces, and
+/// else of contacts that are alike. Nothing if supports and contacts do not resist the push, whichever body's normals count, or if a body
+/// is to turn that may roll.
 pub fn changed_forces(
     pieces: &[Extent],
     supports: &[Condition],
