@@ -200,7 +200,7 @@ fn end_alone(error: &RunError) -> i32 {
 fn check_case(arguments: &CheckArguments) -> i32 {
     let (file, overrides) = (&arguments.case.file(), &arguments.case.overrides);
     let checked = run::check_file(file, overrides);
-    let drawn = run::draw_case(file, overrides, &checked, |name| arguments.figure(name));
+    let drawn = run::draw_case(file, overrides, checked.as_ref().map(|checked| &checked.read), |name| arguments.figure(name));
     let code = match checked {
         Ok(checked) => match (say(&checked.words), checked.not_held) {
             (0, not_held) => {

@@ -41,13 +41,15 @@ pub struct Placed {
     pub meeting: Option<Meeting>,
     /// Edges of body 1 and of body 2 that it lies between.
     pub edges: [Vec<BoundaryEdge>; 2],
+    /// Moduli of both bodies (stress), by which the softer one is told.
+    young: [f64; 2],
 }
 
 impl Placed {
-    /// Γ_C where it lies, cut into segments by the rule of the pair, or into so many as are known; the rest as of [`place`].
-    pub fn cut(&mut self, order: Order, pair: &Pair, young: [f64; 2], known: Option<usize>) {
-        let fractions = fractions(&self.edges, order, pair, young, &self.boundary, known);
-        self.boundary.cut(&fractions);
+    /// Γ_C where it lies, cut into segments by the rule of a pair, or into so many as are known.
+    pub fn cut(mut self, order: Order, pair: &Pair, known: Option<usize>) -> Self {
+        self.boundary.cut(&fractions(&self.edges, order, pair, self.young, &self.boundary, known));
+        self
     }
 }
 
@@ -110,8 +112,7 @@ pub fn place(
         check_cover(mesh, pair, sides, &boundary)?;
     }
     let (meeting, smooth) = fitted.unzip();
-    let mut placed = Placed { boundary, limits, meeting, edges };
-    placed.cut(numbering.level.order, pair, young, known.segments);
+    let placed = Placed { boundary, limits, meeting, edges, young }.cut(numbering.level.order, pair, known.segments);
     if let Some((meeting, smooth)) = placed.meeting.as_ref().zip(smooth).filter(|_| pair.curve == CurveChoice::Fit) {
         check_stray(meeting.sides(&smooth), &placed.boundary, pair)?;
     }

@@ -161,20 +161,6 @@ impl Contact {
         placed.map_err(|words| SystemError::Case(format!("contact.{}: {words}", pair.name)))
     }
 
-    /// One contact on a Γ_C that was placed for it, or for a pair that differs in how it is cut alone: this one's rule cuts it.
-    pub(crate) fn cut_anew(
-        scene: &Scene,
-        numbering: &Numbering,
-        pair: &Pair,
-        first: usize,
-        known: &Known,
-        mut placed: Placed,
-    ) -> Self {
-        let young = SideMaterials::new(scene, &sides(scene, pair)).ruling();
-        placed.cut(numbering.level.order, pair, young, known.segments);
-        Self::on(scene, numbering, 0, pair, first, known, placed)
-    }
-
     /// One contact on a Γ_C that was placed and cut for it.
     pub(crate) fn on(
         scene: &Scene,

@@ -154,9 +154,10 @@ fn wide_contact(
     let (known, placed) = widest(scene, numbering, &even);
     let placed = placed.map_or_else(|| Contact::placed(scene, numbering, &even, &known, &at_rest), Ok)?;
     let contact = Contact::on(scene, numbering, 0, &even, first, &known, placed.clone());
+    let cut = |pair: &Pair| placed.cut(numbering.level.order, pair, known.segments);
     if !contact.has_free_ends() {
         // Where ends stay, so do the segments: what presses is told as the case has it.
-        let contact = Contact::cut_anew(scene, numbering, pair, first, &known, placed);
+        let contact = Contact::on(scene, numbering, 0, pair, first, &known, cut(pair));
         return Ok(WideContact { known, contact, touch: None });
     }
     let (boundary, touch) = (&contact.boundary, touch(scene, numbering, &contact, thin));
@@ -168,7 +169,7 @@ fn wide_contact(
         fractions = cut_to(&fractions, FINE);
     }
     let graded = Pair { segments: SegmentRule::Fractions(fractions), grading: [1.0, 1.0], ..even };
-    let contact = Contact::cut_anew(scene, numbering, &graded, first, &known, placed);
+    let contact = Contact::on(scene, numbering, 0, &graded, first, &known, cut(&graded));
     Ok(WideContact { known, contact, touch })
 }
 

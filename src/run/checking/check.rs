@@ -41,7 +41,7 @@ pub struct Checked {
     /// propose.
     pub proposals: String,
     /// The case and its mesh, as they were read, to be drawn.
-    pub(super) read: (Case, Rc<MacroMesh>),
+    pub read: (Case, Rc<MacroMesh>),
 }
 
 /// The same of a case file, after the overrides `KEY=VALUE`.

@@ -1,6 +1,5 @@
 //! The figure of `mezha check`: what of a case can be read, with all names.
 
-use super::check::Checked;
 use super::proposals::short;
 use crate::body::{Load, LoadKind, RigidSet, SpringStiffness, Springs, Support};
 use crate::case::{Case, read_text};
@@ -16,6 +15,7 @@ use crate::run::reading::scene;
 use crate::run::words::{title, units};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 /// Points of a curved edge in the figure; of a mesh whose edges are too many to be drawn they are small.
 const BENDS: usize = 12;
@@ -34,7 +34,7 @@ const BESIDE: f64 = 0.15;
 const MOST_REMARKS: usize = 8;
 const LONGEST_REMARK: usize = 84;
 
-/// Draws a case that was `checked`, or what can be read of its file after the overrides `KEY=VALUE` with the words of the error; `figure`
+/// Draws a case as it was `read`, or what can be read of its file after the overrides `KEY=VALUE` with the words of the error; `figure`
 /// tells from the name of the case where to. Nothing is drawn where there is no mesh to speak of.
 ///
 /// # Errors
@@ -42,11 +42,11 @@ const LONGEST_REMARK: usize = 84;
 pub fn draw_case(
     file: &Path,
     overrides: &[String],
-    checked: &Result<Checked, RunError>,
+    read: Result<&(Case, Rc<MacroMesh>), &RunError>,
     figure: impl Fn(&str) -> PathBuf,
 ) -> Result<Option<PathBuf>, RunError> {
-    let (name, content) = match checked {
-        Ok(Checked { read: (case, mesh), .. }) => (case.name.clone(), content(case, mesh)),
+    let (name, content) = match read {
+        Ok((case, mesh)) => (case.name.clone(), content(case, mesh)),
         Err(error) => {
             let Some((case, mesh)) = readable(file, overrides) else { return Ok(None) };
             let remarks = remarks(&error.to_string(), file);
