@@ -297,7 +297,7 @@ fn a_tool_that_tips_is_told_to_hold_its_turn_itself() {
 fn a_force_that_is_given_leaves_no_mesh_on_which_bodies_lie_in_each_other() {
     let case = format!(
         "{BLOCK}support.left = {{ on = \"left\", ux = 0.0 }}\ncontact.top = {{ between = [\"top\", \"rigid.wave\"] }}\naccuracy.force = 1e-2
-         rigid.wave = {{ x = \"t\", y = \"1 + 0.002*(1 - cos(8*t))\", t = [-0.5, 2.5], ux = 0.0, angle = 0.0, force = [0.0, -0.5] }}\n"
+         rigid.wave = {{ x = \"t\", y = \"1 + 0.005*(1 - cos(8*t))\", t = [-0.5, 2.5], ux = 0.0, angle = 0.0, force = [0.0, -2.0] }}\n"
     );
     let ended = in_folder(&block(), &case, |run| run.set("mesh.refine", 0).ranks(2).converged());
     let meshes = ended.value("/accuracy").as_array().map_or(0, Vec::len);
