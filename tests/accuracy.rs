@@ -1,6 +1,6 @@
 //! Accuracy on request: two bars of eight triangles get the error that is asked for, on the same meshes on any number of ranks.
 
-use crate::support::mesh::{Block, GOOD, Mesh, write_scene};
+use crate::support::mesh::{Block, GOOD, Mesh, grid, write_scene};
 use crate::support::{Ended, RANKS, Run};
 use std::path::PathBuf;
 use tempfile::TempDir;
@@ -370,4 +370,28 @@ fn contact_that_no_mesh_has_seen_is_not_called_exact() {
     println!("{}: {}", ended.value("/status"), ended.value("/reason"));
     let force = ended.value("/contact/seam/force").as_f64();
     assert!(ended.code == Some(3) || force.is_some_and(|force| force > 0.0), "no force, and the run says that it is exact");
+}
+
+/// Two blocks side by side, of which one is pressed and slides along the other: its contact carries nothing, and no finer mesh tells more.
+#[test]
+fn no_mesh_is_adapted_to_what_slides_along_a_contact_without_a_force() {
+    let block = |cells: usize, from: f64| grid(3, cells, cells as u64, move |u, v| [from + u, 2.0 * v]);
+    let bodies =
+        vec![("left", block(7, 0.0), ["base", "seam.a", "", ""]), ("right", block(5, 1.0), ["base", "wall", "top", "seam.b"])];
+    let case = "mesh.file = \"mesh.msh\"
+         body.left = { young = 2e5, poisson = 0.0 }
+         body.right = { young = 2e5, poisson = 0.0 }
+         support.base = { on = \"base\", uy = 0.0 }
+         support.wall = { on = \"wall\", ux = 0.0 }
+         support.still = { body = \"left\", mean = true, ux = 0.0 }
+         load.top = { on = \"top\", pressure = 10.0 }
+         contact.seam = { between = [\"seam.a\", \"seam.b\"] }\n";
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), case);
+    for (goal, ranks) in [("pressure", 1), ("force", 1), ("energy", 1), ("pressure", 2), ("force", 2), ("energy", 2)] {
+        let ended = Run::file(&file).set(&format!("accuracy.{goal}"), 1e-2).ranks(ranks).converged();
+        let meshes = ended.value("/accuracy").as_array().map_or(0, Vec::len);
+        assert!((1..3).contains(&meshes), "{goal}, {ranks} ranks: {meshes} meshes, {}", ended.said());
+        assert!(ended.number("/contact/seam/force").abs() < 1e-8, "{goal}, {ranks} ranks: {}", ended.said());
+    }
 }

@@ -78,29 +78,6 @@ exact.body.lower.stress = [-7, -7, 0]
     }
 }
 
-/// Two blocks side by side, of which one is pressed and slides along the other: its contact carries nothing, and no finer mesh tells more.
-#[test]
-fn no_mesh_is_adapted_to_what_slides_along_a_contact_without_a_force() {
-    let block = |cells: usize, from: f64| grid(3, cells, cells as u64, move |u, v| [from + u, 2.0 * v]);
-    let bodies =
-        vec![("left", block(7, 0.0), ["base", "seam.a", "", ""]), ("right", block(5, 1.0), ["base", "wall", "top", "seam.b"])];
-    let case = "mesh.file = \"mesh.msh\"
-         body.left = { young = 2e5, poisson = 0.0 }
-         body.right = { young = 2e5, poisson = 0.0 }
-         support.base = { on = \"base\", uy = 0.0 }
-         support.wall = { on = \"wall\", ux = 0.0 }
-         support.still = { body = \"left\", mean = true, ux = 0.0 }
-         load.top = { on = \"top\", pressure = 10.0 }
-         contact.seam = { between = [\"seam.a\", \"seam.b\"] }\n";
-    let (_folder, file) = scene(&Mesh { bodies }, case);
-    for goal in ["pressure", "force", "energy"] {
-        let ended = Run::file(&file).set(&format!("accuracy.{goal}"), 1e-2).ranks(2).converged();
-        let meshes = ended.value("/accuracy").as_array().map_or(0, Vec::len);
-        assert!((1..3).contains(&meshes), "{goal}: {meshes} meshes, {}", ended.said());
-        assert!(ended.number("/contact/seam/force").abs() < 1e-8, "{goal}: {}", ended.said());
-    }
-}
-
 /// A slab that cools between two blocks presses by rounding alone: no finer mesh tells more. It took 7 meshes.
 #[test]
 fn no_mesh_is_adapted_to_what_rounding_presses() {

@@ -194,8 +194,8 @@ fn a_step_without_a_load_is_one_where_nothing_acts() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = write_scene(folder.path(), &mesh.text(), GOOD);
     let steps_of = "{ factors = [0.0, 1.0, 0.0], scales = [\"load.top\"] }";
-    for load in ["\"1.0 + 0.1*x\"", "1.0"] {
-        let ended = Run::file(&file).set("steps.p", steps_of).set("load.top.pressure", load).ranks(2).converged();
+    for (load, ranks) in [("\"1.0 + 0.1*x\"", 1), ("\"1.0 + 0.1*x\"", 2), ("1.0", 2)] {
+        let ended = Run::file(&file).set("steps.p", steps_of).set("load.top.pressure", load).ranks(ranks).converged();
         let all = steps(&ended);
         for at in [0, 2] {
             let reason = all[at]["reason"].as_str().expect("words");

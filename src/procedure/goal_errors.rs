@@ -16,9 +16,9 @@ const MOST_UNKNOWN: f64 = 0.08;
 /// Share of the largest force up to which it is asked whether a contact carries less than is asked for.
 const SMALL: f64 = 0.5;
 
-/// A force below this share of what would press if a contact took up the largest displacement, `E_c u`, is what solves leave: 1e-13 of it
-/// between bodies that part by cooling (1.8 million unknowns), 2e-13 where one slides along another. A weight of 4e-10 of it on a hot
-/// plate was right to seven digits.
+/// A force below this share of what would press if a contact took up the largest displacement, `E_c u`, is what solves leave: 2e-13 of it
+/// where one block slides along another, and 1e-13 of `E α ϑ L` between bodies that part by cooling (1.8 million unknowns). A weight of
+/// 4e-10 of that on a hot plate was right to seven digits.
 const LEFT_BY_SOLVES: f64 = 1e-11;
 
 /// Differences in the energy norm that say that the solution was there before.
