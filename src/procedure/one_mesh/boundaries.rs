@@ -95,7 +95,7 @@ impl OneMesh<'_> {
         }
         self.begin(None);
         let mut system = self.system(problem, &bodies, preconditioning)?;
-        let first = LoopPosition { boundary: 1, passes: 0, is_hard: self.is_hard };
+        let first = LoopPosition { boundary: 1, passes: 0, is_near: false, is_hard: self.is_hard };
         let LoopOutcome { solution, ending, passes, ascended } = self.sets(&mut system, start, self.tolerance, first)?;
         let solution = self.finished(&mut system, solution, &ending, ascended)?;
         let history = MeshHistory { passes, boundaries: Vec::new(), ascended, preconditioning: system.preconditioning() };
@@ -243,7 +243,7 @@ impl OneMesh<'_> {
         loop {
             let tolerance = Tolerance::Residual(if is_last { exact } else { ON_THE_WAY });
             let boundary = history.boundaries.len() + 1;
-            let position = LoopPosition { boundary, passes: history.passes.len(), is_hard: self.is_hard };
+            let position = LoopPosition { boundary, passes: history.passes.len(), is_near: is_last, is_hard: self.is_hard };
             let LoopOutcome { solution, ending, passes, ascended } = self.sets(&mut system, start.take(), tolerance, position)?;
             history.passes.extend(passes);
             let after = match ending {

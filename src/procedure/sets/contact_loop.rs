@@ -81,6 +81,8 @@ pub struct LoopPosition {
     pub boundary: usize,
     /// Passes made on boundaries before.
     pub passes: usize,
+    /// Whether the boundary is nearly, or just, where the one before was.
+    pub is_near: bool,
     /// Whether the set was hard to find on the coarser mesh: residuals say little of the forces then, as in slender bodies.
     pub is_hard: bool,
 }
@@ -145,7 +147,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         let share = share_of_forces(system, share(system)?, relative)?;
         let last = share * relative;
         let is_expected =
-            is_carried && (position.passes > 0 || !set.active().contains(&false) && stays_closed(&problem.contacts));
+            is_carried && (position.is_near && position.passes > 0 || !set.active().contains(&false) && stays_closed(&problem.contacts));
         let goal = match set.may_change() && !is_expected {
             false => last,
             true if is_carried => last.max((LOOK * system.residual()?.relative()).min(WIDEST)),
