@@ -186,6 +186,42 @@ contact.seam = {{ between = ["inner.out", "outer.in"] }}
     }
 }
 
+/// A body stands beside a wall; its round side is drawn by a few chords, whose spline leaves unknown more than the gap is wide. With many
+/// chords the side is known, and so is that nothing presses.
+#[test]
+fn a_gap_that_nodes_leave_unknown_is_no_contact_that_is_known_to_be_open() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let bulge = |y: f64| (36.0 - (y - 1.0f64).powi(2)).sqrt() - 5.0;
+    let file = |chords: usize| {
+        let base = grid(9, 3, 0, |u, v| [4.0 * u - 2.0, v - 1.0]);
+        let body = grid(4, chords, 0, |u, v| [u * bulge(2.0 * v), 2.0 * v]);
+        let wall = grid(3, 5, 0, |u, v| [1.002 + u, 2.0 * v]);
+        let bodies = vec![
+            ("base", base, ["ground", "", "base.top", ""]),
+            ("body", body, ["body.bottom", "body.side", "body.top", "body.middle"]),
+            ("wall", wall, ["", "wall.back", "", "wall.front"]),
+        ];
+        let case = r#"
+mesh = { file = "mesh.msh", refine = 2 }
+body."*" = { young = 1e5, poisson = 0.3 }
+support.ground = { on = ["ground", "wall.back"], ux = 0.0, uy = 0.0 }
+support.middle = { on = "body.middle", ux = 0.0 }
+load.top = { on = "body.top", pressure = 50.0 }
+contact.seat = { between = ["body.bottom", "base.top"] }
+contact.side = { between = ["body.side", "wall.front"] }
+"#;
+        write_scene(folder.path(), &Mesh { bodies }.text(), case)
+    };
+    for (chords, ranks, is_known) in [(2, 1, false), (3, 2, false), (24, 2, true)] {
+        let ended = Run::file(&file(chords)).ranks(ranks).converged();
+        assert_eq!(ended.number("/contact/side/force"), 0.0);
+        let trust = ["trust", "trust_force"].map(|key| ended.value(&format!("/contact/side/{key}")) == true);
+        assert_eq!(trust, [is_known; 2], "{chords}: {}", ended.said());
+        let words = "scatter or are too few, or the curvature jumps between them: though nothing presses, ";
+        assert_eq!(ended.said().contains(words), !is_known, "{}", ended.said());
+    }
+}
+
 /// A crown of two radii that go on as each other, with the shape of each: Γ_C lies on the arc that touches first, and at this force contact
 /// has gone on beyond it. On the arc alone it is 6 % too narrow.
 #[test]

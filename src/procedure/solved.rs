@@ -1,7 +1,7 @@
 //! A scene solved.
 
 use crate::accuracy::Adaptation;
-use crate::discretisation::{BY_ROUNDING, Discretisation, Solution, adrift};
+use crate::discretisation::{Discretisation, Solution, adrift};
 use crate::procedure::boundary::BoundaryStep;
 use crate::procedure::coarse_solution::CoarseSolution;
 use crate::procedure::ending::{Ending, Failure};
@@ -94,16 +94,9 @@ impl Solved {
         all.iter().map(|[unknowns, iterations]| (unknowns * iterations) as f64).sum::<f64>() / self.problem.unknown_count() as f64
     }
 
-    /// Whether nothing acts and nothing moves but by rounding. The same on every rank. **Collective**
+    /// Whether nothing acts, so that nothing moves. The same on every rank.
     pub fn is_idle(&self) -> bool {
-        let size = self.problem.scene.extents().iter().map(|extent| extent.radius).fold(0.0, f64::max);
-        let moves = self.solution.displacement.iter().any(|value| value.abs() > BY_ROUNDING * size);
-        !self.is_driven() && !self.problem.session.any(moves)
-    }
-
-    /// Whether anything acts, or nothing was solved. The same on every rank.
-    pub fn is_driven(&self) -> bool {
-        !self.is_solved() || self.problem.scene.is_driven(&self.problem.finest().numbering)
+        self.is_solved() && !self.problem.scene.is_driven(&self.problem.finest().numbering)
     }
 
     /// Whether what was solved does not meet the contact conditions.
@@ -113,6 +106,6 @@ impl Solved {
 
     /// Whether there are displacements to look at.
     pub fn is_solved(&self) -> bool {
-        !self.passes.is_empty() && self.solution.residual.is_finite()
+        self.solution.residual.is_finite()
     }
 }

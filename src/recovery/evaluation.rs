@@ -12,7 +12,7 @@ use super::motion_error::{MotionError, growth_by_gap, motion_errors};
 use super::overlaps::penetrations;
 use super::overlaps::{missing_beyond, missing_force, unresolved_force};
 use super::probe::{Probed, Probing, probe};
-use super::shape_error::shape_error;
+use super::shape_error::{force_by_shape, shape_error};
 use super::stress::{NodalStress, nodal_stress};
 use super::traces::{TracePoint, trace_points};
 use crate::contact::Penetration;
@@ -46,6 +46,8 @@ pub struct Evaluation<'a> {
     stress: OnceCell<NodalStress>,
     /// For each contact whether a body could move without it.
     needed: Vec<bool>,
+    /// For each contact the force that it may carry though nothing presses, by what nodes leave unknown of its gap.
+    forces_by_shape: Vec<f64>,
     /// For each contact what held mean motions take from it.
     pub held_forces: Vec<f64>,
 }
@@ -61,7 +63,8 @@ impl<'a> Evaluation<'a> {
         problem.session.max(&mut moved);
         let balance = balance(problem, solution, &u)?;
         let (deformations, turns) = deformations(problem, &u)?;
-        let needed = needed_contacts(problem, &solution.active);
+        let (forces_by_shape, active) = may_press(problem, solution, &u)?;
+        let needed = needed_contacts(problem, &active);
         let motions = motion_errors((problem, &needed), solution, &balance, (&deformations, &turns));
         let held_forces = held_forces(problem, solution, &balance);
         let forces: Vec<f64> = balance.contacts.iter().map(|contact| contact.force).collect();
@@ -78,6 +81,7 @@ impl<'a> Evaluation<'a> {
             penetrations,
             stress: OnceCell::new(),
             needed,
+            forces_by_shape,
             held_forces,
         })
     }
@@ -116,8 +120,12 @@ impl<'a> Evaluation<'a> {
 
     /// Estimated relative errors of λ, and of the force, by what the nodes of undeclared boundaries leave unknown of their shape. Of a
     /// contact without which a body could move equilibrium sets the resultant, and only what presses against itself is off. The points
-    /// are the same on every rank. **Collective**
+    /// are the same on every rank. Where nothing presses, by the force that may, as a share of the largest one. **Collective**
     pub fn shape_errors(&self, contact: usize, points: &[TracePoint]) -> Option<[f64; 2]> {
+        let largest = self.balance.contacts.iter().map(|contact| contact.force.abs()).fold(0.0, f64::max);
+        if self.forces_by_shape[contact] > 0.0 && largest > 0.0 {
+            return Some([self.forces_by_shape[contact] / largest; 2]);
+        }
         let error = shape_error(&self.problem.contacts[contact], points)?;
         let ContactForce { force, resultants, .. } = &self.balance.contacts[contact];
         let unset: f64 = if self.needed[contact] { 1.0 - resultants[1].norm() / force.abs() } else { 1.0 };
@@ -169,4 +177,22 @@ impl<'a> Evaluation<'a> {
             }
         }
     }
+}
+
+/// For each contact the force by which it may press though nothing does, since its shape is not known well enough; and the multipliers
+/// that are active, with all of such contacts. **Collective**
+fn may_press(problem: &Discretisation, solution: &Solution, u: &Field<2>) -> Result<(Vec<f64>, Vec<bool>), SystemError> {
+    let (mut forces, mut active) = (Vec::new(), solution.active.clone());
+    for contact in &problem.contacts {
+        let is_open = contact.shapes.is_some() && !active[contact.range()].contains(&true);
+        let force = match is_open {
+            true => force_by_shape(contact, &trace_points(problem, &solution.pressure(contact), u)?),
+            false => 0.0,
+        };
+        if force > 0.0 {
+            active[contact.range()].fill(true);
+        }
+        forces.push(force);
+    }
+    Ok((forces, active))
 }

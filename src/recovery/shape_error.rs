@@ -21,6 +21,9 @@ const SHIFTS: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
 /// Width of a contact boundary at an end by that at its middle, on the axis of revolution.
 const ON_AXIS: f64 = 1e-9;
 
+/// Approach of two round bodies by force and compliance, at a half width of a fiftieth of the radius: (2 ln(4R/b) - 1)/π of Hertz's.
+const APPROACH: f64 = 3.0;
+
 /// A side that is a spline through nodes, with splines through every other one of them, the even and the odd ones, and through every
 /// other one of these.
 struct NodedSide<'c> {
@@ -30,14 +33,17 @@ struct NodedSide<'c> {
     halves: [[Curve; 2]; 2],
 }
 
-/// Angles from a spline to that through half of its nodes, and from that to the one through a quarter (radians), at places that
-/// press; none on a side whose shape is known.
-type SlopeErrors = Vec<[f64; 2]>;
+/// Angles (radians), or distances along the normal (length), from a spline to that through half of its nodes, and from that to the one
+/// through a quarter, at places that press; none on a side whose shape is known.
+type SplineErrors = Vec<[f64; 2]>;
+
+/// What is compared of two curves beside a point.
+type Comparison = fn(&Curve, &Curve, Point) -> f64;
 
 /// Estimated relative error of λ, root mean square over what presses, by the shapes of sides that nobody has declared; nothing if gaps are
 /// not measured between shapes, or if nothing presses. Where a load sets the force, the force is not off by that.
 pub fn shape_error(contact: &Contact, points: &[TracePoint]) -> Option<f64> {
-    let shapes = contact.shapes.as_ref()?;
+    let sides = noded_sides(contact)?;
     let pressing = pressing_places(points);
     let length: f64 = pressing.iter().map(|(_, length)| length).sum();
     let force: f64 = pressing.iter().map(|(point, length)| point.lambda * length).sum();
@@ -45,9 +51,23 @@ pub fn shape_error(contact: &Contact, points: &[TracePoint]) -> Option<f64> {
     let (boundary, middle) = (&contact.boundary, contact.boundary.parameter_at(0.5 * contact.boundary.length()));
     let is_on_axis = |end: f64| boundary.width(end) < ON_AXIS * boundary.width(middle);
     let is_free = contact.ends_with_a_body() == [false; 2] && !boundary.ends().into_iter().any(is_on_axis);
-    let sides = shapes.each_ref().map(|curves| curves.iter().filter_map(NodedSide::of).collect::<Vec<_>>());
-    let slope = slope_error_about(&sides, &pressing, is_free);
+    let slope = spline_error_about(&sides, &pressing, is_free, angle);
     (force > 0.0 && contact.compliance > 0.0).then(|| 0.5 * slope * length / (contact.compliance * force))
+}
+
+/// Force that a contact on which nothing presses may carry all the same, since the nodes of undeclared boundaries leave unknown more of
+/// its shape than its gap is wide (force per thickness).
+pub fn force_by_shape(contact: &Contact, points: &[TracePoint]) -> f64 {
+    let complete = points.iter().filter(|point| point.is_complete());
+    let closest = complete.min_by(|a, b| a.gap.total_cmp(&b.gap)).filter(|_| contact.compliance > 0.0);
+    let Some((closest, sides)) = closest.zip(noded_sides(contact)) else { return 0.0 };
+    let unknown = spline_error_about(&sides, &[(closest, 1.0)], false, offset);
+    (unknown - closest.gap.max(0.0)).max(0.0) / (APPROACH * contact.compliance)
+}
+
+/// The sides whose shape nobody has declared; nothing if gaps are not measured between shapes.
+fn noded_sides(contact: &Contact) -> Option<[Vec<NodedSide<'_>>; 2]> {
+    Some(contact.shapes.as_ref()?.each_ref().map(|curves| curves.iter().filter_map(NodedSide::of).collect()))
 }
 
 /// The places that press, each with the length that it stands for.
@@ -58,27 +78,37 @@ fn pressing_places(points: &[TracePoint]) -> Vec<(&TracePoint, f64)> {
     (0..points.len()).filter(|&k| points[k].lambda > 0.0).map(|k| (&points[k], own(k))).collect()
 }
 
-/// Error of the slopes of the gap where it presses, or, where that is less than a node to either side, of as long a piece anywhere
+/// Error of the slopes, or of the width, of the gap where it presses, or, where that is less than a node to either side, of as long a piece anywhere
 /// within a node: between nodes splines may agree at a point by chance. Root mean square.
-fn slope_error_about(sides: &[Vec<NodedSide>; 2], pressing: &[(&TracePoint, f64)], without_mean: bool) -> f64 {
+fn spline_error_about(
+    sides: &[Vec<NodedSide>; 2],
+    pressing: &[(&TracePoint, f64)],
+    without_mean: bool,
+    compare: Comparison,
+) -> f64 {
     let Some((middle, _)) = pressing.get(pressing.len() / 2) else { return 0.0 };
     let half = 0.5 * (pressing[pressing.len() - 1].0.arc - pressing[0].0.arc);
     let node = sides.iter().filter_map(|side| nearest(side, middle.x)?.node_distance(middle.x)).fold(0.0, f64::max);
     let squared = |share: f64| {
         let shift = share * (node - half).max(0.0);
-        slope_error(sides.each_ref().map(|side| slope_errors(side, pressing, shift)), pressing, without_mean).powi(2)
+        spline_error(sides.each_ref().map(|side| spline_errors(side, pressing, shift, compare)), pressing, without_mean).powi(2)
     };
     (SHIFTS.map(squared).iter().sum::<f64>() / SHIFTS.len() as f64).sqrt()
 }
 
 /// Of the even nodes of a side, and of the odd ones, at what presses, moved along itself.
-fn slope_errors(sides: &[NodedSide], pressing: &[(&TracePoint, f64)], shift: f64) -> [SlopeErrors; 2] {
+fn spline_errors(
+    sides: &[NodedSide],
+    pressing: &[(&TracePoint, f64)],
+    shift: f64,
+    compare: Comparison,
+) -> [SplineErrors; 2] {
     let mut errors = [Vec::new(), Vec::new()];
     for (point, _) in pressing {
         let x = point.x - shift * turn_right(point.normal);
         let Some(side) = nearest(sides, x) else { continue };
         for (errors, [half, quarter]) in errors.iter_mut().zip(&side.halves) {
-            errors.push([apart(side.all, half, x), apart(half, quarter, x)]);
+            errors.push([compare(side.all, half, x), compare(half, quarter, x)]);
         }
     }
     errors
@@ -90,12 +120,12 @@ fn nearest<'s, 'c>(sides: &'s [NodedSide<'c>], x: Point) -> Option<&'s NodedSide
     sides.iter().min_by(|a, b| away(a).total_cmp(&away(b)))
 }
 
-/// Error of the slopes of the gap (radians), root mean square: what both sides miss alike, as where they share their nodes, is no part of
+/// Error of the slopes of the gap, or of its width, root mean square: what both sides miss alike, as where they share their nodes, is no part of
 /// it. Of even and odd nodes the worse counts, paired across the contact as they agree best.
-fn slope_error([first, second]: [[SlopeErrors; 2]; 2], pressing: &[(&TracePoint, f64)], without_mean: bool) -> f64 {
-    let between = |a: &SlopeErrors, b: &SlopeErrors| {
+fn spline_error([first, second]: [[SplineErrors; 2]; 2], pressing: &[(&TracePoint, f64)], without_mean: bool) -> f64 {
+    let between = |a: &SplineErrors, b: &SplineErrors| {
         let difference = |level: usize| {
-            let at = |errors: &SlopeErrors, k: usize| errors.get(k).map_or(0.0, |errors| errors[level]);
+            let at = |errors: &SplineErrors, k: usize| errors.get(k).map_or(0.0, |errors| errors[level]);
             deviation(pressing.iter().enumerate().map(|(k, (_, length))| (at(a, k) - at(b, k), *length)), without_mean)
         };
         let (half, quarter) = (difference(0), difference(1));
@@ -114,11 +144,10 @@ impl<'c> NodedSide<'c> {
             let quarter = half.through_half(false).unwrap_or_else(|| half.clone());
             [half, quarter].map(Curve::Spline)
         };
-        Some(Self {
-            all: curve,
-            nodes: spline.knots(),
-            halves: [with_quarter(spline.through_half(false)?), with_quarter(spline.through_half(true)?)],
-        })
+        // Of three nodes there is one half.
+        let halves = [false, true].map(|odd| spline.through_half(odd).or_else(|| spline.through_half(!odd)));
+        let [Some(even), Some(odd)] = halves else { return None };
+        Some(Self { all: curve, nodes: spline.knots(), halves: [even, odd].map(with_quarter) })
     }
 
     /// Distance of the nodes on either side of a point; nothing beside an end, which a line of symmetry may have made exact.
@@ -132,9 +161,15 @@ impl<'c> NodedSide<'c> {
 }
 
 /// Angle between two curves beside a point (radians).
-fn apart(one: &Curve, other: &Curve, x: Point) -> f64 {
+fn angle(one: &Curve, other: &Curve, x: Point) -> f64 {
     let [a, b] = [one, other].map(|curve| curve.tangent(curve.nearest(x)));
     a.perp(&b).atan2(a.dot(&b))
+}
+
+/// Distance of two curves beside a point along the normal of the first (length).
+fn offset(one: &Curve, other: &Curve, x: Point) -> f64 {
+    let [a, b] = [one, other].map(|curve| curve.point(curve.nearest(x)));
+    one.tangent(one.nearest(x)).perp(&(b - a))
 }
 
 /// Root mean square of values, each with its weight, or of what differs from their mean; 0 without any.
@@ -164,7 +199,7 @@ mod tests {
         let points: Vec<TracePoint> = (-30..=30).map(|k| place(0.013 * f64::from(k))).collect();
         let pressing = pressing_places(&points);
         let curve = Curve::Spline(spline);
-        let own = slope_errors(&[NodedSide::of(&curve).expect("nodes")], &pressing, 0.0);
+        let own = spline_errors(&[NodedSide::of(&curve).expect("nodes")], &pressing, 0.0, angle);
         let [alike, other] = [own.clone(), Default::default()].map(|other| slope_error([own.clone(), other], &pressing, true));
         assert_eq!(alike, 0.0, "sides that share their nodes");
         other
@@ -200,8 +235,8 @@ mod tests {
         let told = |middle: f64, about: bool| {
             let places: Vec<TracePoint> = (-5..=5).map(|k| place(middle + 1e-4 * f64::from(k))).collect();
             let pressing = pressing_places(&places);
-            let at = slope_error([slope_errors(&sides[0], &pressing, 0.0), Default::default()], &pressing, true);
-            if about { slope_error_about(&sides, &pressing, true) } else { at }
+            let at = spline_error([spline_errors(&sides[0], &pressing, 0.0, angle), Default::default()], &pressing, true);
+            if about { spline_error_about(&sides, &pressing, true, angle) } else { at }
         };
         let spread = |about: bool| {
             let told: Vec<f64> = (-10..=10).map(|k| told(0.02 + 0.005 * f64::from(k), about)).collect();
@@ -220,8 +255,8 @@ mod tests {
         let places: Vec<TracePoint> = (0..=15).map(|k| place(1e-3 * f64::from(k))).collect();
         let pressing = pressing_places(&places);
         let slope = |without_mean: bool| {
-            slope_error(
-                [slope_errors(&[NodedSide::of(&curve).expect("nodes")], &pressing, 0.0), Default::default()],
+            spline_error(
+                [spline_errors(&[NodedSide::of(&curve).expect("nodes")], &pressing, 0.0, angle), Default::default()],
                 &pressing,
                 without_mean,
             )

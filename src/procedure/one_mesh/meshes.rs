@@ -75,7 +75,8 @@ impl Procedure<'_> {
         let (first, words) = self.first_solver(&scene, 2 * at_rest.numbering.node_count());
         let mut coarser = Coarser { first, words, predecessor, found: None, differences: Vec::new(), solves: Vec::new() };
         let take_up = |refine: usize| self.observer.observe(Event::Refinement { refine, last: scene.refine });
-        for times in (1..=COARSER.min(scene.refine)).rev() {
+        let coarser_meshes = if scene.is_driven(&at_rest.numbering) { COARSER.min(scene.refine) } else { 0 };
+        for times in (1..=coarser_meshes).rev() {
             take_up(scene.refine - times);
             match self.coarse_mesh(scene.coarser(times), &mut coarser) {
                 // The mesh is too coarse for the scene; the case's own may do.

@@ -14,7 +14,7 @@ use crate::run::verdict::no_result::{NO_NUMBERS, no_result};
 use crate::run::verdict::trust;
 use crate::run::verdict::unresolved::{pressed_by_rounding, pulled, unresolved};
 use crate::run::verdict::warnings::after::{apart, crossed, large_strains, loaded_points, slivers};
-use crate::run::verdict::warnings::before::{IDLE, TO_DRIVE};
+use crate::run::verdict::warnings::before::IDLE;
 use crate::run::{Run, accuracy};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -40,8 +40,6 @@ impl Run<'_> {
         }
         if solved.is_idle() {
             (status, reason) = (Status::Converged, IDLE.into());
-        } else if status != Status::Converged && !solved.is_driven() {
-            reason = format!("{IDLE}, if they are held; {TO_DRIVE}");
         }
         let accuracy = adaptation.as_ref().map(accuracy::summarise);
         let summary = Summary { accuracy, status, ..summary };

@@ -1,7 +1,7 @@
 //! The text of a first case.
 
-use super::guesses::{Guesses, POISSON, Press, Weight, YOUNG};
-use super::named_curve::{LOADED, NamedCurve, PULLED};
+use super::guesses::{AWAY, Guesses, POISSON, Press, Weight, YOUNG};
+use super::named_curve::{NamedCurve, PULLED};
 use crate::contact::ClosePair;
 use crate::run::checking::node_circle::NodeCircle;
 use crate::run::checking::proposals::{MeanProposal, ProposedSupports, TableNames, contact_table, digits, key, quoted, short};
@@ -9,6 +9,9 @@ use std::path::Path;
 
 /// Boundaries that are named in comments at most.
 const MOST_NAMED: usize = 60;
+
+/// Contacts that are left out, up to which each is told with its reason.
+const MOST_TOLD: usize = 3;
 
 /// Unknowns that the example may have, and times those of the first mesh at least, so that there is room to adapt it.
 const MOST_UNKNOWNS: usize = 200_000;
@@ -47,12 +50,17 @@ impl Draft<'_> {
                 bodies[a], bodies[b]
             )
         };
-        let left_out = |(pair, why): &(ClosePair, String)| {
-            let [first, second] = &pair.between;
-            format!("the contact of \"{first}\" and \"{second}\" is left out: {why}")
+        let names = |(ClosePair { between: [first, second], .. }, _): &(ClosePair, String)| format!("\"{first}\" and \"{second}\"");
+        let left_out = |all: &[(ClosePair, String)]| match all {
+            [one] => format!("the contact of {} is left out: {}", names(one), one.1),
+            all => {
+                let all: Vec<String> = all.iter().map(names).collect();
+                format!("{} contacts are left out, each with its reason in the case: {}", all.len(), all.join("; "))
+            }
         };
         let Guesses { unnamed, refused, aside, .. } = &self.guesses;
-        unnamed.iter().map(close).chain(refused.iter().map(left_out)).chain(aside.iter().cloned()).chain(self.no_load()).collect()
+        let each = if refused.len() > MOST_TOLD { refused.len() } else { 1 };
+        unnamed.iter().map(close).chain(refused.chunks(each).map(left_out)).chain(aside.iter().cloned()).chain(self.no_load()).collect()
     }
 
     /// Words for a load that is left out with the contact that would carry it.
@@ -176,14 +184,15 @@ impl Draft<'_> {
         let what = if sense < 0.0 { "pulled" } else { "pressed" };
         let why = match curve {
             _ if sense < 0.0 && !curve.has(PULLED) => "a push would open every contact of its body",
-            _ if curve.has(LOADED) => "by its name",
+            _ if curve.is_loaded() => "by its name",
             _ if curve.is_held() => "its name says that it is held, but then nothing would act",
             _ => "the highest boundary that looks up",
         };
         let (table, on) = (TableNames::default().fresh(curve.name), quoted(curve.name));
         let head = format!("\n[load.{table}]          # {what}: {why}\non = {on}\n");
-        // A plate on a body of revolution moves along the axis alone.
-        if press == Press::Pressure || direction.x != 0.0 && self.guesses.may_be_round() {
+        // A plate on a body of revolution moves along the axis alone, and a pressure only along the normal.
+        let is_across = direction.dot(&curve.normal).abs() < AWAY;
+        if !is_across && (press == Press::Pressure || direction.x != 0.0 && self.guesses.may_be_round()) {
             let pressure = sense * self.guesses.pressure(curve);
             return head + &format!("pressure = {pressure:?}       # example: pushes onto the body if it is positive\n");
         }

@@ -1,6 +1,6 @@
 //! What a mesh is likely meant to be: what is held, what is pressed, what touches.
 
-use super::named_curve::{ALONG, LOADED, NamedCurve, PULLED};
+use super::named_curve::{ALONG, NamedCurve, PULLED};
 use crate::contact::{ClosePair, close_pairs};
 use crate::geometry::{Point, cross};
 use crate::mesh::{Boundary, MacroMesh, each_once};
@@ -32,7 +32,11 @@ const ROUNDING: f64 = 1e-9;
 const DRAWN: f64 = 1e-6;
 
 /// A load opens a contact whose mean normal is against it by more than this; a shorter mean normal says nothing.
-const AWAY: f64 = 0.1;
+pub const AWAY: f64 = 0.1;
+
+/// Boundaries of a body whose names differ in their numbers only, from which on they are parts that repeat, as roots of threads.
+/// Two may be two feet.
+const MANY: usize = 3;
 
 /// How the example presses.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -86,6 +90,9 @@ impl<'a> Guesses<'a> {
         let (tools, aside) = proposed_tools(mesh, &[], &[]);
         let mut curves: Vec<_> = mesh.boundaries.iter().filter_map(|boundary| NamedCurve::new(mesh, boundary, &pairs)).collect();
         curves.iter_mut().for_each(|curve| curve.is_touched |= tools.iter().any(|tool| tool.between[0] == curve.name));
+        let kinds: Vec<_> = curves.iter().map(|curve| (curve.body, curve.words())).collect();
+        let is_many = |kind| kinds.iter().filter(|other| *other == kind).count() >= MANY;
+        curves.iter_mut().zip(&kinds).for_each(|(curve, kind)| curve.is_one_of_many = is_many(kind));
         let is_known = |bodies: &[usize; 2]| pairs.iter().any(|pair| pair.bodies == *bodies);
         let unnamed = close_outlines(mesh).into_iter().filter(|bodies| !is_known(bodies)).collect();
         Self { mesh, curves, pairs, tools, aside, refused: Vec::new(), unnamed, interference_loads: true, down: DOWN[0] }
@@ -117,14 +124,14 @@ impl<'a> Guesses<'a> {
     /// be all bodies but those that lie between them, as rollers between two rings, and neither a name nor an interference loads one, nothing
     /// would act: the highest is left to a load then.
     pub fn held(&self) -> Vec<&NamedCurve<'a>> {
-        let rank = |curve: &&NamedCurve| (curve.normal.y < -ALONG, -curve.low.y);
+        let rank = |curve: &&NamedCurve| (curve.is_seat(), curve.normal.y < -ALONG, -curve.low.y);
         let likeliest = |a: &&NamedCurve, b: &&NamedCurve| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal);
         let by_name = |body: usize| self.free().filter(|curve| curve.body == body && curve.is_held()).max_by(likeliest);
         let mut held: Vec<&NamedCurve> = (0..self.mesh.bodies.len()).filter_map(by_name).collect();
         if held.is_empty() {
             held.extend(self.free().filter(|curve| curve.normal.y < -ALONG).max_by(likeliest));
         }
-        let is_loaded = self.is_pressed_in() || self.free().any(|curve| curve.has(LOADED) && !curve.is_held());
+        let is_loaded = self.is_pressed_in() || self.free().any(|curve| curve.is_loaded() && !curve.is_held());
         let is_base = |body: usize| held.iter().any(|curve| curve.body == body);
         let lies_between = |body: usize| {
             let partners = self.partners(body);
@@ -185,11 +192,11 @@ impl<'a> Guesses<'a> {
     pub fn pressed(&self) -> Option<&NamedCurve<'a>> {
         let (bases, held, is_alone) = (self.bases(), self.held(), self.mesh.bodies.len() == 1);
         let is_held = |curve: &NamedCurve| held.iter().any(|held| held.name == curve.name);
-        let is_free = |curve: &NamedCurve| is_alone || !bases.contains(&curve.body) || curve.has(LOADED);
+        let is_free = |curve: &NamedCurve| is_alone || !bases.contains(&curve.body) || curve.is_loaded();
         let other = |curve: &&NamedCurve| is_free(curve) && !is_held(curve) && !self.is_cut_off(curve.body);
-        let rank = |curve: &&NamedCurve| (curve.has(LOADED), curve.is_held(), curve.normal.y > ALONG, curve.high.y);
+        let rank = |curve: &&NamedCurve| (curve.is_loaded(), curve.is_held(), curve.normal.y > ALONG, curve.high.y);
         let likely = self.free().filter(other);
-        let likely = likely.filter(|curve| curve.has(LOADED) || curve.is_held() || curve.normal.y > ALONG);
+        let likely = likely.filter(|curve| curve.is_loaded() || curve.is_held() || curve.normal.y > ALONG);
         let best = likely.max_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal));
         best.filter(|curve| curve.is_of_one_piece)
     }

@@ -6,13 +6,14 @@ use crate::mesh::{Boundary, MacroMesh};
 use crate::run::checking::node_circle::NodeCircle;
 
 /// Words in names of boundaries that are held, loaded, those of them that are pulled, and of symmetry, with blanks between them.
-pub const HELD: &str = "bottom base fixed fix clamp clamped ground floor foot foundation support wall root grip hold held mount anchor encastre casing";
-pub const LOADED: &str = "top load loaded press pressed pressure force punch push piston pull pulled tension drag lift traction";
+const HELD: &str = "bottom base fixed fix clamp clamped ground floor foundation support wall root grip hold held mount anchor encastre casing";
+const LOADED: &str = "top load loaded press pressed pressure force punch push piston pull pulled tension drag lift traction";
 pub const PULLED: &str = "pull pulled tension drag lift traction";
 const MIRRORED: &str = "symmetry sym symm mirror symx symy symmx symmy xsym ysym xsymm ysymm";
 
-/// Last words in names of what sits on or in something that holds it. Before other words they name the body: `hub.outside` is free.
-const SEATS: [&str; 10] = ["bore", "axle", "axis", "hub", "shaft", "housing", "case", "frame", "carrier", "block"];
+/// Last words in names of what sits on or in something that holds it. Before other words they name the body, or a part of it:
+/// `hub.outside` and `foot.left` are free.
+const SEATS: [&str; 11] = ["foot", "bore", "axle", "axis", "hub", "shaft", "housing", "case", "frame", "carrier", "block"];
 
 /// Words of so many letters at least are known at the beginning and at the end of a longer one, too: `clampleft`, `leftclamp`.
 const LONG: usize = 5;
@@ -34,6 +35,9 @@ pub struct NamedCurve<'a> {
     pub normal: Point,
     pub length: f64,
     pub is_touched: bool,
+    /// Whether three or more boundaries of its body differ in their numbers only: roots of threads or teeth, of which none is held
+    /// or loaded by its name.
+    pub is_one_of_many: bool,
     /// The circle that its nodes lie on, where the edges of the mesh are straight.
     pub circle: Option<NodeCircle>,
 }
@@ -60,6 +64,7 @@ impl<'a> NamedCurve<'a> {
             high,
             normal: normal / length,
             length,
+            is_one_of_many: false,
             circle: NodeCircle::of_edges(mesh, &boundary.edges),
             is_touched: pairs.iter().any(|pair| pair.between.contains(&boundary.name)),
         })
@@ -85,11 +90,21 @@ impl<'a> NamedCurve<'a> {
 
     /// Whether its name says that it is held.
     pub fn is_held(&self) -> bool {
-        self.has(HELD) || self.words().last().is_some_and(|last| SEATS.contains(&last.as_str()))
+        !self.is_one_of_many && self.has(HELD) || self.is_seat()
+    }
+
+    /// Whether its name says that it sits on or in something that holds it.
+    pub fn is_seat(&self) -> bool {
+        !self.is_one_of_many && self.words().last().is_some_and(|last| SEATS.contains(&last.as_str()))
+    }
+
+    /// Whether its name says that it is loaded.
+    pub fn is_loaded(&self) -> bool {
+        !self.is_one_of_many && self.has(LOADED)
     }
 
     /// The words of its name, in small letters and without numbers: `Seal.gripLeft2` has three.
-    fn words(&self) -> Vec<String> {
+    pub fn words(&self) -> Vec<String> {
         let letters: Vec<char> = self.name.chars().collect();
         let begins = |at: usize| at > 0 && letters[at].is_uppercase() && letters[at - 1].is_lowercase();
         let spaced = letters.iter().enumerate().flat_map(|(at, &c)| begins(at).then_some(' ').into_iter().chain([c]));
@@ -103,8 +118,9 @@ mod tests {
     use super::*;
 
     fn named(name: &str) -> NamedCurve<'_> {
-        let (low, high, normal) = (Point::zeros(), Point::zeros(), Point::zeros());
-        NamedCurve { name, body: 0, is_of_one_piece: true, low, high, normal, length: 1.0, is_touched: false, circle: None }
+        let [low, high, normal] = [Point::zeros(); 3];
+        let [is_touched, is_one_of_many] = [false; 2];
+        NamedCurve { name, body: 0, is_of_one_piece: true, low, high, normal, length: 1.0, is_touched, is_one_of_many, circle: None }
     }
 
     #[test]
@@ -129,6 +145,6 @@ mod tests {
         }
         let away = NamedCurve { high: Point::new(1.0, 0.0), ..named("bolt.axis") };
         assert!(named("bolt.axis2").is_mirrored() && !away.is_mirrored() && away.is_held(), "an axis lies on x = 0");
-        assert!(named("bolt.pull").has(PULLED) && named("PullRight").has(LOADED) && !named("pulley").has(LOADED));
+        assert!(named("bolt.pull").has(PULLED) && named("PullRight").is_loaded() && !named("pulley").is_loaded());
     }
 }

@@ -46,9 +46,11 @@ pub fn verdict(summary: &Summary, contact: &ContactSummary, mended: Mended, conv
     doubts.extend(FORCE.judge(force, &[]).filter(|_| carries));
     let mut beyond = doubts_beyond(summary, contact, case, carries);
     beyond.extend(direction_doubt(contact, pair, case).filter(|_| carries));
-    let shapes: Vec<Doubt> = shape_doubts(contact, pair, case).into_iter().filter(|_| carries).collect();
+    // An open contact may press all the same, where the nodes leave its gap unknown.
+    let has_shape = carries || contact.force == Some(0.0);
+    let shapes: Vec<Doubt> = shape_doubts(contact, pair, case).into_iter().filter(|_| has_shape).collect();
     let is_known = contact.shape_error_force.is_none_or(|error| error <= shape_limit(pair, case, false));
-    let trust_force = trust_force.map(|trust| trust && beyond.is_empty() && (is_known || !carries));
+    let trust_force = trust_force.map(|trust| trust && beyond.is_empty() && (is_known || !has_shape));
     doubts.extend(beyond);
     doubts.extend(shapes);
     let unknown = uncut(pair).or_else(|| unknown_of(contact, trust_force, mended.by(Remedy::MoreSegments)));
@@ -106,8 +108,13 @@ pub fn shape_doubts(contact: &ContactSummary, pair: &Pair, case: &Case) -> Vec<D
         .filter_map(|(error, of_pressure)| Some((error?, shape_limit(pair, case, of_pressure))))
         .find(|(error, most)| error > most);
     let limit = off.map_or(String::new(), |(_, most)| most.to_string());
-    let named: [(&str, &str); 4] =
-        [("first", &pair.between[0]), ("second", &pair.between[1]), ("angle", &angle), ("limit", &limit)];
+    let wrong = off.map_or(String::new(), |(error, _)| match contact.force {
+        Some(0.0) => format!("though nothing presses, {} of the largest force may", short(error)),
+        _ => format!("λ is wrong by about {} (relative)", short(error)),
+    });
+    let [first, second] = &pair.between;
+    let named: [(&str, &str); 5] =
+        [("first", first), ("second", second), ("angle", &angle), ("limit", &limit), ("wrong", &wrong)];
     let shape = off.map(|(error, _)| SHAPE.doubt(error, &named));
     CORNERS.judge(contact.corner_error, &named[..3]).into_iter().chain(shape).collect()
 }

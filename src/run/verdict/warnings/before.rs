@@ -12,7 +12,7 @@ use crate::run::words::short;
 pub const IDLE: &str = "nothing loads, moves or presses the bodies, so that they stay as they are drawn";
 
 /// What would act.
-pub const TO_DRIVE: &str = "give a load, a support that moves, heat, or a negative gap";
+const TO_DRIVE: &str = "give a load, a support that moves, heat, or a negative gap";
 
 /// A sentence for a scene in which nothing acts.
 pub fn idle(scene: &Scene, numbering: &Numbering) -> Option<String> {
