@@ -186,6 +186,29 @@ contact.seam = {{ between = ["inner.out", "outer.in"] }}
     }
 }
 
+/// A block stands on a wider one: strain and rotation have no bound at the ends of what presses. They count by what is around these places,
+/// however small the triangles are there.
+#[test]
+fn corners_turn_no_farther_on_finer_meshes() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let body = |nx: usize, ny: usize, low: [f64; 2], size: [f64; 2]| {
+        grid(nx, ny, 0, move |u, v| [low[0] + size[0] * u, low[1] + size[1] * v])
+    };
+    let block = body(12, 3, [-2.0, -1.0], [4.0, 1.0]);
+    let upper = body(7, 3, [-1.0, 0.0], [2.0, 1.0]);
+    let bodies = vec![("block", block, ["base", "", "block.top", ""]), ("body", upper, ["body.bottom", "", "body.top", ""])];
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), CASE);
+    let found = |energy: f64, ranks: usize| {
+        let ended = Run::file(&file).ranks(ranks).set("accuracy.energy", energy).converged();
+        ["rotation_max", "strain_max"].map(|key| ended.number(&format!("/{key}/block")).abs())
+    };
+    let [fine, alone, finer] = [(1e-3, 2), (1e-3, 1), (3e-4, 2)].map(|(energy, ranks)| found(energy, ranks));
+    for k in 0..2 {
+        assert!(finer[k] < 1.1 * fine[k], "{} and {}", finer[k], fine[k]);
+        assert!((alone[k] / fine[k] - 1.0).abs() < 1e-6, "{alone:?} and {fine:?}");
+    }
+}
+
 /// A body stands beside a wall; its round side is drawn by a few chords, whose spline leaves unknown more than the gap is wide. With many
 /// chords the side is known, and so is that nothing presses.
 #[test]
@@ -195,7 +218,7 @@ fn a_gap_that_nodes_leave_unknown_is_no_contact_that_is_known_to_be_open() {
     let file = |chords: usize| {
         let base = grid(9, 3, 0, |u, v| [4.0 * u - 2.0, v - 1.0]);
         let body = grid(4, chords, 0, |u, v| [u * bulge(2.0 * v), 2.0 * v]);
-        let wall = grid(3, 5, 0, |u, v| [1.002 + u, 2.0 * v]);
+        let wall = grid(3, 5, 0, |u, v| [1.0005 + u, 2.0 * v]);
         let bodies = vec![
             ("base", base, ["ground", "", "base.top", ""]),
             ("body", body, ["body.bottom", "body.side", "body.top", "body.middle"]),

@@ -97,12 +97,7 @@ fn spline_error_about(
 }
 
 /// Of the even nodes of a side, and of the odd ones, at what presses, moved along itself.
-fn spline_errors(
-    sides: &[NodedSide],
-    pressing: &[(&TracePoint, f64)],
-    shift: f64,
-    compare: Comparison,
-) -> [SplineErrors; 2] {
+fn spline_errors(sides: &[NodedSide], pressing: &[(&TracePoint, f64)], shift: f64, compare: Comparison) -> [SplineErrors; 2] {
     let mut errors = [Vec::new(), Vec::new()];
     for (point, _) in pressing {
         let x = point.x - shift * turn_right(point.normal);

@@ -217,9 +217,10 @@ impl Procedure<'_> {
         })
     }
 
-    /// An ending that names the loads that drive a body off all its contacts, where they are why the contact conditions are not met.
+    /// An ending that names the loads that drive a body off all its contacts, where they are why the contact conditions are not met, or
+    /// why a solve came to nothing.
     fn with_cause(&self, ending: Ending, scene: &Scene) -> Ending {
-        let Ending::NotConverged(Failure::ConditionsViolated(_)) = &ending else { return ending };
+        let Ending::NotConverged(Failure::ConditionsViolated(_) | Failure::LinearSolver { .. }) = &ending else { return ending };
         match Self::driven_off(&scene.on_one_rank(), self.accuracy, 1) {
             Some(words) => Ending::NotConverged(Failure::NotHeld(words)),
             None => ending,

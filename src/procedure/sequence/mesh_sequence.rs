@@ -41,6 +41,8 @@ pub(crate) struct MeshSequence {
     /// The last mesh that could be solved, and where the triangles of the present one lie in it.
     last: Option<Solved>,
     origins: Vec<Origin>,
+    /// The first mesh that was solved for, and not to an end, where none could be solved before.
+    unsolved: Option<Solved>,
     /// Meshes that could not be solved since, and why the first of them was refused.
     failed: usize,
     refusal: Option<SystemError>,
@@ -60,6 +62,7 @@ impl MeshSequence {
             adaptation: Adaptation::new(accuracy.clone()),
             foreseen: vec![None; accuracy.goals.len()],
             last: None,
+            unsolved: None,
             failed: 0,
             refusal: None,
             started: Instant::now(),
@@ -125,8 +128,10 @@ impl MeshSequence {
         if self.scene.refine == 0 || !self.refine(missed) {
             return Some(self.ended_or_last(solved, SequenceEnd::Unknowns));
         }
-        if solved.ending.is_converged() {
-            self.last = Some(solved);
+        match solved.ending.is_converged() {
+            true => self.last = Some(solved),
+            false if self.last.is_none() => _ = self.unsolved.get_or_insert(solved),
+            false => {}
         }
         None
     }
@@ -148,11 +153,16 @@ impl MeshSequence {
         self.failed < MOST_FAILED && self.scene.mesh.triangles.len() <= MOST_REFUSED && self.refine(&[])
     }
 
-    /// The last mesh that could be solved, after finer ones could not.
+    /// The last mesh that could be solved, after finer ones could not; without one the first whose solves came to no end.
     ///
     /// # Errors
     /// The first refusal, if there is no such mesh.
     pub fn given_up(&mut self) -> Result<Solved, SystemError> {
+        if self.last.is_none()
+            && let Some(unsolved) = self.unsolved.take()
+        {
+            return Ok(self.ended(unsolved, SequenceEnd::Unsolved));
+        }
         match (self.last.take(), self.refusal.take()) {
             (None, Some(refusal)) => Err(refusal),
             (None, None) => Err(SystemError::Case("accuracy: no mesh could be solved".into())),
@@ -286,6 +296,18 @@ mod tests {
         let mesh = sequence.mesh.mesh.clone();
         let partition = crate::mesh::Partition::new(&mesh, &vec![0; mesh.triangles.len()], 1);
         sequence.scene = Scene { mesh: mesh.into(), partition: partition.into(), ..sequence.scene.clone() };
+    }
+
+    #[test]
+    fn what_was_solved_to_no_end_is_the_result_where_the_next_meshes_are_refused() {
+        let mut sequence = sequence();
+        let failure = Failure::LinearSolver { reason: "KSP_DIVERGED_BREAKDOWN".into(), iterations: 120, residual: 1e3 };
+        let first = solved(&mut sequence, Ending::NotConverged(failure));
+        assert!(sequence.go_on(first, None, &[]).is_none(), "there is a next mesh");
+        assert!(sequence.goes_on_after(SystemError::Case("the boundary is lost".into())), "and a next one");
+        let found = sequence.given_up().expect("a result");
+        assert!(matches!(found.ending, Ending::NotConverged(Failure::LinearSolver { .. })));
+        assert_eq!(found.adaptation.expect("a sequence").end, SequenceEnd::Unsolved);
     }
 
     #[test]

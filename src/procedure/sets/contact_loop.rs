@@ -146,8 +146,8 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
         let relative = last_residual(system, tolerance)?;
         let share = share_of_forces(system, share(system)?, relative)?;
         let last = share * relative;
-        let is_expected =
-            is_carried && (position.is_near && position.passes > 0 || !set.active().contains(&false) && stays_closed(&problem.contacts));
+        let is_expected = is_carried
+            && (position.is_near && position.passes > 0 || !set.active().contains(&false) && stays_closed(&problem.contacts));
         let goal = match set.may_change() && !is_expected {
             false => last,
             true if is_carried => last.max((LOOK * system.residual()?.relative()).min(WIDEST)),

@@ -50,7 +50,8 @@ impl Draft<'_> {
                 bodies[a], bodies[b]
             )
         };
-        let names = |(ClosePair { between: [first, second], .. }, _): &(ClosePair, String)| format!("\"{first}\" and \"{second}\"");
+        let names =
+            |(ClosePair { between: [first, second], .. }, _): &(ClosePair, String)| format!("\"{first}\" and \"{second}\"");
         let left_out = |all: &[(ClosePair, String)]| match all {
             [one] => format!("the contact of {} is left out: {}", names(one), one.1),
             all => {
@@ -60,7 +61,13 @@ impl Draft<'_> {
         };
         let Guesses { unnamed, refused, aside, .. } = &self.guesses;
         let each = if refused.len() > MOST_TOLD { refused.len() } else { 1 };
-        unnamed.iter().map(close).chain(refused.chunks(each).map(left_out)).chain(aside.iter().cloned()).chain(self.no_load()).collect()
+        unnamed
+            .iter()
+            .map(close)
+            .chain(refused.chunks(each).map(left_out))
+            .chain(aside.iter().cloned())
+            .chain(self.no_load())
+            .collect()
     }
 
     /// Words for a load that is left out with the contact that would carry it.

@@ -6,7 +6,8 @@ use crate::mesh::{Boundary, MacroMesh};
 use crate::run::checking::node_circle::NodeCircle;
 
 /// Words in names of boundaries that are held, loaded, those of them that are pulled, and of symmetry, with blanks between them.
-const HELD: &str = "bottom base fixed fix clamp clamped ground floor foundation support wall root grip hold held mount anchor encastre casing";
+const HELD: &str =
+    "bottom base fixed fix clamp clamped ground floor foundation support wall root grip hold held mount anchor encastre casing";
 const LOADED: &str = "top load loaded press pressed pressure force punch push piston pull pulled tension drag lift traction";
 pub const PULLED: &str = "pull pulled tension drag lift traction";
 const MIRRORED: &str = "symmetry sym symm mirror symx symy symmx symmy xsym ysym xsymm ysymm";
@@ -120,7 +121,18 @@ mod tests {
     fn named(name: &str) -> NamedCurve<'_> {
         let [low, high, normal] = [Point::zeros(); 3];
         let [is_touched, is_one_of_many] = [false; 2];
-        NamedCurve { name, body: 0, is_of_one_piece: true, low, high, normal, length: 1.0, is_touched, is_one_of_many, circle: None }
+        NamedCurve {
+            name,
+            body: 0,
+            is_of_one_piece: true,
+            low,
+            high,
+            normal,
+            length: 1.0,
+            is_touched,
+            is_one_of_many,
+            circle: None,
+        }
     }
 
     #[test]
