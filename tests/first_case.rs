@@ -244,6 +244,35 @@ fn boundaries_that_meet_at_a_corner_alone_are_no_contacts_of_first_cases() {
     assert!(code == Some(0) && !format!("{output}{errors}").contains("paste this"), "{output}{errors}");
 }
 
+/// Roots of which a body has several are no supports, an inner face is none, and a load is along what contact resists: along the normal of an
+/// oblique face, across a shaft beside a hub.
+#[test]
+fn holds_and_loads_are_those_that_an_engineer_would_mean() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let new = |turn: f64, lower: [&'static str; 3], upper: [&'static str; 3]| {
+        let mut mesh = two_blocks([(3, 2, 1), (4, 2, 2)]);
+        let [bottom, right, left] = lower;
+        mesh.bodies[0].2 = [bottom, right, "lower.seam", left];
+        let [right, top, left] = upper;
+        mesh.bodies[1].2 = ["upper.seam", right, top, left];
+        let (sin, cos) = turn.sin_cos();
+        let mesh = mesh.map(|[x, y]| [5.0 + cos * x - sin * y, sin * x + cos * y]);
+        std::fs::write(folder.path().join("mesh.msh"), mesh.text()).expect("a mesh can be written");
+        let text = std::fs::read_to_string(new_case(folder.path(), "mesh.msh")).expect("a case");
+        assert_eq!(mezha_in(folder.path(), None, &["check", "case.toml"]).0, Some(0), "{text}");
+        text
+    };
+    let text = new(0.0, ["base", "", ""], ["t1.root", "t2.root", "t3.root"]);
+    assert_eq!(text.matches("# held: by its name").count(), 1, "{text}");
+    assert!(!text.contains("\n[support.t"), "{text}");
+    let text = new(0.0, ["base", "", ""], ["foot.side", "top", ""]);
+    assert!(text.contains("\n[load.top]") && !text.contains("\n[support.foot"), "{text}");
+    let text = new(0.5 * std::f64::consts::PI, ["", "", "hub.end"], ["shaft.end", "", ""]);
+    assert!(text.contains("[load.shaft-end]") && text.contains("force = [20.0, 0.0]") && !text.contains("-still"), "{text}");
+    let text = new(0.5, ["base", "", ""], ["", "pushed.press", ""]);
+    assert!(text.contains("[load.pushed-press]") && text.contains("\npressure = "), "{text}");
+}
+
 /// What a mesh says by its names and by how it is drawn: a case without a load for bodies that reach into each other, one that pulls
 /// where a name says so and contact holds the body, or where a push would open every contact, and one that holds a grip, whatever its side.
 #[test]

@@ -209,7 +209,7 @@ fn corners_turn_no_farther_on_finer_meshes() {
     }
 }
 
-/// A body stands beside a wall; its round side is drawn by a few chords, whose spline leaves unknown more than the gap is wide. With many
+/// A body stands beside a wall; its round side is drawn by two chords, whose spline leaves unknown more than the gap is wide. With many
 /// chords the side is known, and so is that nothing presses.
 #[test]
 fn a_gap_that_nodes_leave_unknown_is_no_contact_that_is_known_to_be_open() {
@@ -235,7 +235,7 @@ contact.side = { between = ["body.side", "wall.front"] }
 "#;
         write_scene(folder.path(), &Mesh { bodies }.text(), case)
     };
-    for (chords, ranks, is_known) in [(2, 1, false), (3, 2, false), (24, 2, true)] {
+    for (chords, ranks, is_known) in [(2, 1, false), (2, 2, false), (24, 2, true)] {
         let ended = Run::file(&file(chords)).ranks(ranks).converged();
         assert_eq!(ended.number("/contact/side/force"), 0.0);
         let trust = ["trust", "trust_force"].map(|key| ended.value(&format!("/contact/side/{key}")) == true);

@@ -1,7 +1,7 @@
 //! The text of a first case.
 
 use super::guesses::{AWAY, Guesses, POISSON, Press, Weight, YOUNG};
-use super::named_curve::{NamedCurve, PULLED};
+use super::named_curve::{ALONG, NamedCurve, PULLED};
 use crate::contact::ClosePair;
 use crate::run::checking::node_circle::NodeCircle;
 use crate::run::checking::proposals::{MeanProposal, ProposedSupports, TableNames, contact_table, digits, key, quoted, short};
@@ -197,9 +197,10 @@ impl Draft<'_> {
         };
         let (table, on) = (TableNames::default().fresh(curve.name), quoted(curve.name));
         let head = format!("\n[load.{table}]          # {what}: {why}\non = {on}\n");
-        // A plate on a body of revolution moves along the axis alone, and a pressure only along the normal.
-        let is_across = direction.dot(&curve.normal).abs() < AWAY;
-        if !is_across && (press == Press::Pressure || direction.x != 0.0 && self.guesses.may_be_round()) {
+        // A plate on a body of revolution moves along the axis alone, a guided one along an axis, and a pressure along the normal.
+        let is_across = direction.dot(&curve.normal).abs() < AWAY && !curve.has(PULLED);
+        let is_oblique = curve.normal.norm() > ALONG && curve.normal.amax() < ALONG;
+        if !is_across && (press == Press::Pressure || is_oblique || direction.x != 0.0 && self.guesses.may_be_round()) {
             let pressure = sense * self.guesses.pressure(curve);
             return head + &format!("pressure = {pressure:?}       # example: pushes onto the body if it is positive\n");
         }

@@ -129,7 +129,8 @@ impl<'a> Guesses<'a> {
         let by_name = |body: usize| self.free().filter(|curve| curve.body == body && curve.is_held()).max_by(likeliest);
         let mut held: Vec<&NamedCurve> = (0..self.mesh.bodies.len()).filter_map(by_name).collect();
         if held.is_empty() {
-            held.extend(self.free().filter(|curve| curve.normal.y < -ALONG).max_by(likeliest));
+            let is_below = |curve: &&NamedCurve| 2.0 * curve.low.y < self.reach(curve.body, Point::y()).iter().sum();
+            held.extend(self.free().filter(|curve| curve.normal.y < -ALONG).filter(is_below).max_by(likeliest));
         }
         let is_loaded = self.is_pressed_in() || self.free().any(|curve| curve.is_loaded() && !curve.is_held());
         let is_base = |body: usize| held.iter().any(|curve| curve.body == body);
@@ -194,7 +195,7 @@ impl<'a> Guesses<'a> {
         let is_held = |curve: &NamedCurve| held.iter().any(|held| held.name == curve.name);
         let is_free = |curve: &NamedCurve| is_alone || !bases.contains(&curve.body) || curve.is_loaded();
         let other = |curve: &&NamedCurve| is_free(curve) && !is_held(curve) && !self.is_cut_off(curve.body);
-        let rank = |curve: &&NamedCurve| (curve.is_loaded(), curve.is_held(), curve.normal.y > ALONG, curve.high.y);
+        let rank = |curve: &&NamedCurve| (curve.is_loaded(), curve.normal.y > ALONG, curve.is_held(), curve.high.y);
         let likely = self.free().filter(other);
         let likely = likely.filter(|curve| curve.is_loaded() || curve.is_held() || curve.normal.y > ALONG);
         let best = likely.max_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal));
@@ -302,8 +303,13 @@ impl<'a> Guesses<'a> {
 
     /// How low and how high a body reaches.
     fn ends(&self, body: usize) -> [f64; 2] {
+        self.reach(body, -self.down.0)
+    }
+
+    /// From where to where a body reaches along a direction.
+    fn reach(&self, body: usize, along: Point) -> [f64; 2] {
         let own = self.mesh.pieces.iter().zip(self.mesh.bounds()).filter(|(piece, _)| piece.body == body);
-        range_of(own.flat_map(|(_, ends)| ends.map(|end| -end.dot(&self.down.0))))
+        range_of(own.flat_map(|(_, ends)| ends.map(|end| end.dot(&along))))
     }
 
     fn area(&self, body: usize) -> f64 {
