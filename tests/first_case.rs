@@ -410,7 +410,7 @@ fn check_lists_what_acts() {
     let plate = "load.top={ on = \"top\", rigid = true, force = [0, -3], moment = 2, ux = 0 }";
     let thick = told(&["thickness=5", plate, "body.lower.body_force=[0, \"-3*x\"]", "units={ length = \"mm\", force = \"N\" }"]);
     for words in [
-        "load top: stiff plate, force (0, -3) N, moment 2, ux = 0",
+        "load top: stiff plate, force (0, -3) N, moment 2 about (1, 2), ux = 0",
         "load force in lower: (0, …) for each volume, resultant (0, -30) N",
         "body lower: E = 7000 MPa",
     ] {

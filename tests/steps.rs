@@ -205,6 +205,30 @@ fn a_step_without_a_load_is_one_where_nothing_acts() {
     }
 }
 
+/// A roller that touches a block, and carries a force in the second step alone: in the others both lie as they are drawn.
+#[test]
+fn a_tool_without_a_force_stays_where_it_is() {
+    let block = grid(8, 4, 1, |u, v| [2.0 * u - 1.0, v - 1.0]);
+    let mesh = Mesh { bodies: vec![("block", block, ["bottom", "", "block.top", ""])] };
+    let case = r#"
+mesh = { file = "mesh.msh", refine = 2 }
+body.block = { young = 2e5, poisson = 0.3 }
+support.table = { on = "bottom", ux = 0.0, uy = 0.0 }
+rigid.roller = { circle = { centre = [0.05, 3.0], radius = 3.0 }, force = [0, -300], ux = 0.0 }
+contact.seam = { between = ["block.top", "rigid.roller"] }
+steps.p = { factors = [0.0, 1.0, 0.0], scales = ["rigid.roller"] }
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = write_scene(folder.path(), &mesh.text(), case);
+    for ranks in [1, 2] {
+        let all = steps(&Run::file(&file).ranks(ranks).converged());
+        for (at, force) in [0.0, 300.0, 0.0].into_iter().enumerate() {
+            close(number(&all[at], "/contact/seam/resultant/1").abs(), force, 300.0, "the force");
+            assert_eq!(number(&all[at], "/displacement_max") == 0.0, force == 0.0, "{at}");
+        }
+    }
+}
+
 /// A block that nothing but contact holds is lifted in the second step: that is told, and the others are solved.
 #[test]
 fn a_step_that_comes_to_nothing_is_told_and_the_others_are_solved() {

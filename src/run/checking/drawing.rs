@@ -341,7 +341,7 @@ fn driven_words(motion: &RigidSet, thickness: f64, units: &Units) -> String {
     let [fx, fy, moment] = motion.applied.map(|part| part * thickness);
     let force = Point::new(fx, fy);
     let force = (force != Point::zeros()).then(|| format!("force {}{}", vector(force), units.resultant().after()));
-    let moment = (moment != 0.0).then(|| format!("moment {}", number_text(moment)));
+    let moment = (moment != 0.0).then(|| format!("moment {} about {}", number_text(moment), vector(motion.about)));
     let moved = ["ux", "uy", "angle"].iter().zip(motion.prescribed);
     let moved = moved.filter_map(|(key, way)| Some(format!("{key} = {}", short(way?))));
     let all: Vec<String> = force.into_iter().chain(moment).chain(moved).collect();
@@ -360,11 +360,12 @@ fn loads(case: &Case, mesh: &MacroMesh, on: &dyn Fn(&[String]) -> Rows) -> Vec<D
         ..DrawnLoad::default()
     };
     let units = units(case);
-    let plates = case.plates.iter().map(|plate| {
+    let sets = case.rigid_sets(mesh);
+    let plates = case.plates.iter().zip(&sets[case.tools.len()..]).map(|(plate, motion)| {
         let rows = on(&plate.on);
-        let [fx, fy, _] = plate.motion.applied;
+        let [fx, fy, _] = motion.applied;
         let middle = rows.iter().flatten().nth(rows.iter().flatten().count() / 2).map_or([0.0; 2], |point| point.place);
-        let words = format!("stiff plate, {}", driven_words(&plate.motion, case.thickness, &units));
+        let words = format!("stiff plate, {}", driven_words(motion, case.thickness, &units));
         DrawnLoad { rows, is_plate: true, ..arrow(&plate.name, words, middle, [fx, fy]) }
     });
     let at_points = case.point_loads.iter().map(|load| {
