@@ -208,13 +208,13 @@ fn a_step_without_a_load_is_one_where_nothing_acts() {
 /// A roller that touches a block, and carries a force in the second step alone: in the others both lie as they are drawn.
 #[test]
 fn a_tool_without_a_force_stays_where_it_is() {
-    let block = grid(8, 4, 1, |u, v| [2.0 * u - 1.0, v - 1.0]);
+    let block = grid(12, 4, 1, |u, v| [60.0 * u - 30.0, 20.0 * v]);
     let mesh = Mesh { bodies: vec![("block", block, ["bottom", "", "block.top", ""])] };
     let case = r#"
-mesh = { file = "mesh.msh", refine = 2 }
+mesh = { file = "mesh.msh", refine = 4 }
 body.block = { young = 2e5, poisson = 0.3 }
 support.table = { on = "bottom", ux = 0.0, uy = 0.0 }
-rigid.roller = { circle = { centre = [0.05, 3.0], radius = 3.0 }, force = [0, -300], ux = 0.0 }
+rigid.roller = { circle = { centre = [2, 70], radius = 50 }, force = [0, -300], ux = 0.0 }
 contact.seam = { between = ["block.top", "rigid.roller"] }
 steps.p = { factors = [0.0, 1.0, 0.0], scales = ["rigid.roller"] }
 "#;

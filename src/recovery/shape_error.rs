@@ -195,7 +195,7 @@ mod tests {
         let pressing = pressing_places(&points);
         let curve = Curve::Spline(spline);
         let own = spline_errors(&[NodedSide::of(&curve).expect("nodes")], &pressing, 0.0, angle);
-        let [alike, other] = [own.clone(), Default::default()].map(|other| slope_error([own.clone(), other], &pressing, true));
+        let [alike, other] = [own.clone(), Default::default()].map(|other| spline_error([own.clone(), other], &pressing, true));
         assert_eq!(alike, 0.0, "sides that share their nodes");
         other
     }
