@@ -244,6 +244,27 @@ fn boundaries_that_meet_at_a_corner_alone_are_no_contacts_of_first_cases() {
     assert!(code == Some(0) && !format!("{output}{errors}").contains("paste this"), "{output}{errors}");
 }
 
+/// A shaft with a bore is drawn into a hub all round: a bore that is held would carry what its interference presses by.
+#[test]
+fn the_bore_of_a_shaft_that_is_pressed_in_is_free() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let text = |overlap: f64| {
+        let ring = |chords: usize, radii: [f64; 2]| {
+            grid(chords, 2, 0, move |u, v| {
+                let (angle, radius) = (2.0 * std::f64::consts::PI * (1.0 - u), radii[0] + (radii[1] - radii[0]) * v);
+                [radius * angle.cos(), radius * angle.sin()]
+            })
+        };
+        let shaft = ("shaft", ring(32, [4.0, 10.0 + overlap]), ["shaft.bore", "", "shaft.out", ""]);
+        let hub = ("hub", ring(32, [10.0, 20.0]), ["hub.in", "", "hub.rim", ""]);
+        std::fs::write(folder.path().join("mesh.msh"), Mesh { bodies: vec![shaft, hub] }.text()).expect("a mesh can be written");
+        std::fs::read_to_string(new_case(folder.path(), "mesh.msh")).expect("a case")
+    };
+    assert!(text(-0.02).contains("[support.shaft-bore]       # held: by its name"));
+    let pressed = text(0.05);
+    assert!(pressed.contains("into each other") && !pressed.contains("[support.shaft-bore]"), "{pressed}");
+}
+
 /// Roots of which a body has several are no supports, an inner face is none, and a load is along what contact resists: along the normal of an
 /// oblique face, across a shaft beside a hub.
 #[test]

@@ -69,7 +69,11 @@ pub fn table(value: &Value) -> Result<Table, String> {
 pub fn must_be(wanted: &str, found: &Value) -> String {
     match found {
         Value::Float(number) if !number.is_finite() => format!("must be {wanted}"),
-        Value::Array(list) => format!("must be {wanted}, not a list of length {}", list.len()),
+        Value::Array(list) => {
+            let commas = list.len() > 2 && list.iter().all(Value::is_integer);
+            let dots = if commas { "; a number has a dot, not a comma" } else { "" };
+            format!("must be {wanted}, not a list of length {}{dots}", list.len())
+        }
         Value::String(text) if text.is_empty() => format!("must be {wanted}, and is empty"),
         found => format!("must be {wanted}, not of type {}", found.type_str()),
     }

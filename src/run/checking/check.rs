@@ -87,7 +87,9 @@ fn describe(case: &Case) -> Result<Checked, RunError> {
     let words = format!("{triangles} {order} triangles after {refine} refinements, {unknowns} unknowns of displacement");
     let mut lines = vec![format!("{}: {}", case.name, case.title), format!("mesh: {whole} macro triangles, {words}")];
     lines.extend(case.matched.iter().map(matched));
-    lines.extend(scene.mesh.loose.iter().map(|curve| format!("curve {}: bounds no body, and is left aside", curve.name)));
+    let is_tool = |name: &str| case.tools.iter().any(|tool| tool.key().strip_prefix("rigid.") == Some(name));
+    let aside = scene.mesh.loose.iter().map(|curve| &curve.name).filter(|name| !is_tool(name));
+    lines.extend(aside.map(|name| format!("curve {name}: bounds no body, and is left aside")));
     lines.extend(body_lines(case));
     lines.extend(contact_lines(&at_rest.contacts, &units(case)));
     lines.extend(acting_lines(case, &scene, &at_rest.numbering));

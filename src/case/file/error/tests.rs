@@ -146,6 +146,10 @@ fn errors_of_supports_name_key_value_and_remedy() {
         ("support.r={at=[0, 1], normal=0}", "support.r.normal = 0 (--set): stands beside at: a point has no normal"),
         ("support.r={at=[0, 1]}", "support.r: prescribes nothing; give ux, uy or normal"),
         ("support.r={at=[0], ux=0}", "support.r.at = [0] (--set): must be two numbers [x, y], not a list of length 1"),
+        (
+            "support.r={at=[0,5, 1,5], ux=0}",
+            "must be two numbers [x, y], not a list of length 4; a number has a dot, not a comma",
+        ),
         ("support.r={ux=0}", "support.r.on: missing; write on = \"bottom\", or at = [0.0, 1.0] for a point"),
         ("support.r={at=[0, 1], ux=0, body='b'}", "support.r.body = \"b\" (--set): no such body; did you mean \"a\"?"),
         ("support.s.body=a", "support.s.body = \"a\" (--set): stands beside at = [x, y] only"),

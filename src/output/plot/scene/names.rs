@@ -9,6 +9,9 @@ use crate::output::summary::{MOST_TOLD, alike};
 /// Of more things than can be named about so many are.
 const FEW_NAMES: usize = 6;
 
+/// Letters of a label at most: those of a stiff plate with a force and two motions.
+const LONGEST: usize = 60;
+
 /// What contacts are called together.
 const CONTACTS: &str = "contacts";
 
@@ -68,7 +71,8 @@ impl ScenePlot {
         let every = if all.len() > MOST_NAMES && !has_numbers { all.len().div_ceil(FEW_NAMES) } else { 1 };
         let mut count = 0;
         for (text, colour, anchor, wish) in all.iter().step_by(every).flatten().cloned() {
-            let text: String = if text.chars().count() > 40 { text.chars().take(39).chain(['…']).collect() } else { text };
+            let text: String =
+                if text.chars().count() > LONGEST { text.chars().take(LONGEST - 1).chain(['…']).collect() } else { text };
             let letters = Letters { is_bold: size > 11.0, ..Letters::new(size, colour) };
             count += usize::from(self.labels.put(&mut self.canvas, &Name { text: &text, letters, anchor, wish }));
         }

@@ -126,7 +126,8 @@ impl<'a> Guesses<'a> {
     pub fn held(&self) -> Vec<&NamedCurve<'a>> {
         let rank = |curve: &&NamedCurve| (curve.is_seat(), curve.normal.y < -ALONG, -curve.low.y);
         let likeliest = |a: &&NamedCurve, b: &&NamedCurve| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal);
-        let by_name = |body: usize| self.free().filter(|curve| curve.body == body && curve.is_held()).max_by(likeliest);
+        let is_held = |curve: &&NamedCurve| curve.is_held() && !(curve.is_seat() && self.is_pressed_all_round(curve.body));
+        let by_name = |body: usize| self.free().filter(|curve| curve.body == body).filter(is_held).max_by(likeliest);
         let mut held: Vec<&NamedCurve> = (0..self.mesh.bodies.len()).filter_map(by_name).collect();
         if held.is_empty() {
             let is_below = |curve: &&NamedCurve| 2.0 * curve.low.y < self.reach(curve.body, Point::y()).iter().sum();
@@ -205,6 +206,13 @@ impl<'a> Guesses<'a> {
     /// Whether bodies are drawn into each other: that interference is the load.
     pub fn is_pressed_in(&self) -> bool {
         self.interference_loads && self.pairs.iter().any(|pair| pair.distance < 0.0 && pair.share() > DRAWN)
+    }
+
+    /// Whether a body is drawn into another all round, as a shaft into a hub: a bore that were held could not give way.
+    fn is_pressed_all_round(&self, body: usize) -> bool {
+        let is_round = |name: &String| self.curves.iter().any(|curve| curve.name == name && curve.normal.norm() < AWAY);
+        let is_pressed = |pair: &ClosePair| pair.bodies.contains(&body) && pair.distance < 0.0 && pair.share() > DRAWN;
+        self.interference_loads && self.pairs.iter().any(|pair| is_pressed(pair) && pair.between.iter().all(is_round))
     }
 
     /// The axis along which a boundary is pushed: against its normal, or, if no contact of its body would feel that, into these; down if it
