@@ -33,6 +33,13 @@ impl MacroMesh {
         })
     }
 
+    /// The triangles of each body.
+    pub fn triangles_by_body(&self) -> Vec<Vec<usize>> {
+        let mut of_bodies = vec![Vec::new(); self.bodies.len()];
+        self.triangles.iter().enumerate().for_each(|(at, triangle)| of_bodies[triangle.body as usize].push(at));
+        of_bodies
+    }
+
     /// The vertex at a point that the case names; nothing if the mesh was not made for it.
     pub fn vertex_at(&self, spot: &Spot) -> Option<u32> {
         self.points.iter().find(|point| point.spot == *spot).map(|point| point.vertex)

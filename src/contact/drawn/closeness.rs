@@ -85,6 +85,9 @@ pub struct CloseSide {
     sagitta: f64,
 }
 
+/// Whether a body holds a point.
+type BodyHolds<'h> = &'h dyn Fn(usize, Point) -> bool;
+
 impl CloseSide {
     /// Boundaries that lie on one body; nothing if they have no edges, or lie on several.
     pub fn of_boundaries<'a>(mesh: &MacroMesh, boundaries: impl Iterator<Item = &'a Boundary>) -> Option<Self> {
@@ -141,7 +144,7 @@ impl CloseSide {
     }
 
     /// How another side is faced within two shares of a size, behind and ahead: far behind only what lies in both bodies counts.
-    fn sight_of(&self, other: &Self, mesh: &MacroMesh, most: [f64; 2], size: f64) -> Option<Faced> {
+    fn sight_of(&self, other: &Self, holds: BodyHolds, most: [f64; 2], size: f64) -> Option<Faced> {
         let reach = most.map(|share| share * size);
         let bows = 2.0 * (self.bow + other.bow);
         let (mut nearest, mut deepest, mut is_faced, mut behind) = (None::<f64>, 0.0_f64, false, Vec::new());
@@ -161,16 +164,15 @@ impl CloseSide {
             }
         }
         let drawn = nearest.filter(|_| is_faced).map(|nearest| if deepest < -bows { deepest } else { nearest });
-        let depth = self.depth(other, mesh, behind);
+        let depth = self.depth(other, holds, behind);
         depth.or(drawn).map(|distance| Faced { distance, overlaps: depth.is_some(), length })
     }
 
     /// The largest depth of places behind each other, of this side and of another, between which both bodies are, after a quarter of
     /// the way and after three: half-way they are, too, between the far sides of bodies that overlap a little.
-    fn depth(&self, other: &Self, mesh: &MacroMesh, mut behind: Vec<(f64, [Point; 2])>) -> Option<f64> {
+    fn depth(&self, other: &Self, holds: BodyHolds, mut behind: Vec<(f64, [Point; 2])>) -> Option<f64> {
         let bodies = [self.body?, other.body?];
-        let of = |body: usize| (0..mesh.triangles.len()).filter(move |&triangle| mesh.triangles[triangle].body as usize == body);
-        let is_held = |x: Point| bodies.iter().all(|&body| of(body).any(|triangle| mesh.locate(triangle, x).is_some()));
+        let is_held = |x: Point| bodies.iter().all(|&body| holds(body, x));
         behind.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut few = behind.iter().step_by(behind.len().div_ceil(LOOKED_AT).max(1));
         few.find(|(_, [a, b])| [0.25, 0.75].iter().all(|t| is_held(a + *t * (b - a)))).map(|(along, _)| *along)
@@ -257,6 +259,8 @@ fn facing_sides(
         Disc { middle: 0.5 * (low + high), radius }
     };
     let discs: Vec<Disc> = sides.iter().map(disc).collect();
+    let of_bodies = mesh.triangles_by_body();
+    let holds = |body: usize, x: Point| of_bodies[body].iter().any(|&triangle| mesh.locate(triangle, x).is_some());
     let mut candidates = Vec::new();
     overlapping_discs(&discs, &discs, |a, b| {
         let bodies = [sides[a].body, sides[b].body];
@@ -269,7 +273,7 @@ fn facing_sides(
     let facing = |[a, b]: [usize; 2]| {
         let [first, second] = [&sides[a], &sides[b]];
         let size = size(first).min(size(second));
-        let Faced { distance, overlaps, length: faced } = first.sight_of(second, mesh, most, size)?;
+        let Faced { distance, overlaps, length: faced } = first.sight_of(second, &holds, most, size)?;
         let distance = if distance.abs() < 1e-9 * size { 0.0 } else { distance };
         let faced = (faced / first.length.min(second.length)).min(1.0);
         let (share, length) = (distance.abs() / size, first.length + second.length);

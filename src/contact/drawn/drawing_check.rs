@@ -24,8 +24,7 @@ impl Facing<'_> {
     /// the indices of those that are refused, with words: their boundaries turn their backs to each other, lie on the wrong sides of
     /// each other, or are said to touch and lie apart, or another contact before them, which is not refused, claims the same place.
     pub fn refused(all: &[Self], mesh: &MacroMesh) -> Vec<(usize, String)> {
-        let mut of_bodies = vec![Vec::new(); mesh.bodies.len()];
-        (0..mesh.triangles.len()).for_each(|triangle| of_bodies[mesh.triangles[triangle].body as usize].push(triangle));
+        let of_bodies = mesh.triangles_by_body();
         let (mut reached, mut refused) = (HashMap::<_, Vec<usize>>::new(), Vec::new());
         for (at, facing) in all.iter().enumerate() {
             let keys: HashSet<_> = facing.seen.iter().flatten().filter(|seen| seen.faces).map(Seen::key).collect();

@@ -204,8 +204,13 @@ const MOST_LOOKED_AT: usize = 100;
 /// with how far apart their sides are drawn.
 fn acting_lines(case: &Case, scene: &Scene, numbering: &Numbering) -> Vec<String> {
     let (units, (supports, loads)) = (units(case), acting(case, &scene.mesh));
+    // The mesh of the file is fine enough for resultants.
+    let coarse = scene.macro_numbering().ok();
+    let idle =
+        scene.parts().into_iter().map(|part| BodyPart { force: [0.0; 2].map(Formula::constant), heat: None, ..part.clone() });
+    let idle: Vec<BodyPart> = idle.collect();
     let resultant = |load: &DrawnLoad| {
-        let (force, size) = resultant(scene, load)?;
+        let (force, size) = resultant(scene, (coarse.as_ref()?, &idle), load)?;
         let force = scene.mesh.plane.resultant(force).map(|part| if part.abs() < ROUNDING * size { 0.0 } else { part });
         Some(format!(", resultant {}{}", vector(force * case.thickness), units.resultant().after()))
     };
@@ -227,22 +232,17 @@ fn few(kind: [&str; 2], count: usize, all: impl Iterator<Item = (String, String)
     lines.chain((more > 0).then(|| format!("and {more} more {}", kind[1]))).collect()
 }
 
-/// The force of tractions along a boundary, or in a part, per thickness, of the whole ring in a body of revolution, and how large its
-/// pieces are together; nothing where the words tell the force.
-fn resultant(scene: &Scene, load: &DrawnLoad) -> Option<(Point, f64)> {
+/// The force of tractions along a boundary, or in a part of a mesh whose parts are `idle`, per thickness, of the whole ring in a body of
+/// revolution, and how large its pieces are together; nothing where the words tell the force.
+fn resultant(scene: &Scene, (numbering, idle): (&Numbering, &[BodyPart]), load: &DrawnLoad) -> Option<(Point, f64)> {
     let plane = scene.mesh.plane;
     let mut pieces: Vec<Point> = Vec::new();
     if let Some(own) = load.part {
-        // The mesh of the file is fine enough for that.
-        let numbering = scene.macro_numbering().ok()?;
-        let nothing = || [0, 1].map(|_| Formula::constant(0.0));
-        let all = scene.parts().into_iter().enumerate().map(|(at, part)| {
-            let force = if at == own { part.force.clone() } else { nothing() };
-            BodyPart { force, heat: None, ..part.clone() }
-        });
-        let all: Vec<BodyPart> = all.collect();
-        let applied = Applied { parts: &all.iter().collect::<Vec<_>>(), loads: &[], point_loads: &[] };
-        applied_forces(&scene.mesh, &scene.partition, 0, &numbering, &applied, |_, force| pieces.push(force)).ok()?;
+        let loaded = BodyPart { heat: None, ..scene.parts()[own].clone() };
+        let mut parts: Vec<&BodyPart> = idle.iter().collect();
+        parts[own] = &loaded;
+        let applied = Applied { parts: &parts, loads: &[], point_loads: &[] };
+        applied_forces(&scene.mesh, &scene.partition, 0, numbering, &applied, |_, force| pieces.push(force)).ok()?;
     } else if load.resultant.is_none() {
         let traction = |two: &[BoundaryPoint]| {
             let [a, b] = [&two[0], &two[1]].map(|end| (Point::from(end.place), Point::from(end.traction)));
