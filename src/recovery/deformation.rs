@@ -6,7 +6,7 @@ use crate::geometry::{Point, cross};
 use crate::mesh::{MacroMesh, MacroTriangle};
 use crate::petsc::Session;
 use nalgebra::Matrix2;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 /// Refinements from which on a macro triangle alone is a region of many triangles.
 const MANY: usize = 2;
@@ -94,23 +94,22 @@ fn small_together(problem: &Discretisation, sums: &[[f64; 3]]) -> Vec<[f64; 3]> 
         let body = mesh.triangles[at as usize].body as usize;
         let [a, b, c] = mesh.corners(at as usize);
         let place = ((a + b + c) / (3.0 * squares[body])).map(f64::floor);
-        (cross(b - a, c - a) < squares[body].powi(2)).then_some([body as f64, place.x, place.y])
+        (cross(b - a, c - a) < squares[body].powi(2)).then_some([body as i64, place.x as i64, place.y as i64])
     };
-    let small: Vec<(u32, [f64; 3])> = problem.own_triangles().iter().filter_map(|&at| Some((at, square(at)?))).collect();
-    let told: Vec<[f64; 6]> = small
-        .iter()
-        .map(|&(at, [body, x, y])| {
-            let [strain, area, rotation] = sums[at as usize];
-            [body, x, y, strain, area, rotation]
-        })
-        .collect();
-    let mut together: HashMap<[u64; 3], [f64; 3]> = HashMap::new();
-    for &[body, x, y, strain, area, rotation] in problem.session.gather_all(told.as_flattened()).as_chunks().0 {
-        let sum = together.entry([body, x, y].map(f64::to_bits)).or_default();
-        sum.iter_mut().zip([strain, area, rotation]).for_each(|(sum, value)| *sum += value);
+    let mut own: BTreeMap<[i64; 3], [f64; 3]> = BTreeMap::new();
+    let small: Vec<(u32, [i64; 3])> = problem.own_triangles().iter().filter_map(|&at| Some((at, square(at)?))).collect();
+    for &(at, square) in &small {
+        own.entry(square).or_default().iter_mut().zip(sums[at as usize]).for_each(|(sum, value)| *sum += value);
+    }
+    let (places, values): (Vec<[i64; 3]>, Vec<[f64; 3]>) = own.into_iter().unzip();
+    let places = problem.session.gather_all(places.as_flattened());
+    let values = problem.session.gather_all(values.as_flattened());
+    let mut together: BTreeMap<[i64; 3], [f64; 3]> = BTreeMap::new();
+    for (square, own) in places.as_chunks().0.iter().zip(values.as_chunks::<3>().0) {
+        together.entry(*square).or_default().iter_mut().zip(own).for_each(|(sum, value)| *sum += value);
     }
     let mut found = sums.to_vec();
-    small.into_iter().for_each(|(at, square)| found[at as usize] = together[&square.map(f64::to_bits)]);
+    small.into_iter().for_each(|(at, square)| found[at as usize] = together[&square]);
     found
 }
 

@@ -78,8 +78,8 @@ fn pressing_places(points: &[TracePoint]) -> Vec<(&TracePoint, f64)> {
     (0..points.len()).filter(|&k| points[k].lambda > 0.0).map(|k| (&points[k], own(k))).collect()
 }
 
-/// Error of the slopes, or of the width, of the gap where it presses, or, where that is less than a node to either side, of as long a piece anywhere
-/// within a node: between nodes splines may agree at a point by chance. Root mean square.
+/// Error of the slopes, or of the width, of the gap where it presses, or, where that is less than a node to either side, of as long a
+/// piece anywhere within a node: between nodes splines may agree at a point by chance. Root mean square.
 fn spline_error_about(
     sides: &[Vec<NodedSide>; 2],
     pressing: &[(&TracePoint, f64)],
@@ -115,8 +115,8 @@ fn nearest<'s, 'c>(sides: &'s [NodedSide<'c>], x: Point) -> Option<&'s NodedSide
     sides.iter().min_by(|a, b| away(a).total_cmp(&away(b)))
 }
 
-/// Error of the slopes of the gap, or of its width, root mean square: what both sides miss alike, as where they share their nodes, is no part of
-/// it. Of even and odd nodes the worse counts, paired across the contact as they agree best.
+/// Error of the slopes of the gap (radians), or of its width (length), root mean square: what both sides miss alike, as where they share
+/// their nodes, is no part of it. Of even and odd nodes the worse counts, paired across the contact as they agree best.
 fn spline_error([first, second]: [[SplineErrors; 2]; 2], pressing: &[(&TracePoint, f64)], without_mean: bool) -> f64 {
     let between = |a: &SplineErrors, b: &SplineErrors| {
         let difference = |level: usize| {
