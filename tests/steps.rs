@@ -225,6 +225,7 @@ steps.p = { factors = [0.0, 1.0, 0.0], scales = ["rigid.roller"] }
         for (at, force) in [0.0, 300.0, 0.0].into_iter().enumerate() {
             close(number(&all[at], "/contact/seam/resultant/1").abs(), force, 300.0, "the force");
             assert_eq!(number(&all[at], "/displacement_max") == 0.0, force == 0.0, "{at}");
+            assert!(force > 0.0 || all[at]["contact"]["seam"]["trust"] != false, "{at}: {:#}", all[at]["contact"]);
         }
     }
 }

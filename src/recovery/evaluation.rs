@@ -135,7 +135,7 @@ impl<'a> Evaluation<'a> {
     /// Force that is missing because bodies overlap where nothing presses, relative to the force found; without a force, the
     /// largest overlap relative to the largest relative displacement.
     pub fn missing_force(&self, contact: usize, zones: &[[f64; 2]], points: &[TracePoint]) -> (Option<f64>, f64) {
-        missing_force(&self.problem.contacts[contact], zones, points, self.balance.contacts[contact].force, self.moved)
+        missing_force(&self.problem.contacts[contact], zones, points, self.balance.contacts[contact].force, self.way())
     }
 
     /// Force that overlaps all beyond a contact boundary are worth, relative to the force found.
@@ -145,7 +145,12 @@ impl<'a> Evaluation<'a> {
 
     /// Force that penetration within single segments of a contact is worth (force per thickness).
     pub fn unresolved_force(&self, contact: usize, points: &[TracePoint]) -> f64 {
-        unresolved_force(&self.problem.contacts[contact], points, self.moved)
+        unresolved_force(&self.problem.contacts[contact], points, self.way())
+    }
+
+    /// The way by which overlaps are measured (length): where nothing has moved, bodies lie in each other by rounding alone.
+    fn way(&self) -> f64 {
+        if self.moved == 0.0 { f64::INFINITY } else { self.moved }
     }
 
     /// Both bodies' traces along a contact boundary. **Collective**
