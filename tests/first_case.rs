@@ -265,8 +265,8 @@ fn the_bore_of_a_shaft_that_is_pressed_in_is_free() {
     assert!(pressed.contains("into each other") && !pressed.contains("[support.shaft-bore]"), "{pressed}");
 }
 
-/// Roots of which a body has several are no supports, an inner face is none, and a load is along what contact resists: along the normal of an
-/// oblique face, across a shaft beside a hub.
+/// Roots of which a body has several are no supports, nor are slopes of a foot, and a load is along what contact resists: along the normal of
+/// an oblique face, across a shaft beside a hub.
 #[test]
 fn holds_and_loads_are_those_that_an_engineer_would_mean() {
     let folder = tempfile::tempdir().expect("a temporary folder");

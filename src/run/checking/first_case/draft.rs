@@ -3,15 +3,13 @@
 use super::guesses::{AWAY, Guesses, POISSON, Press, Weight, YOUNG};
 use super::named_curve::{ALONG, NamedCurve, PULLED};
 use crate::contact::ClosePair;
+use crate::output::summary::MOST_TOLD;
 use crate::run::checking::node_circle::NodeCircle;
 use crate::run::checking::proposals::{MeanProposal, ProposedSupports, TableNames, contact_table, digits, key, quoted, short};
 use std::path::Path;
 
 /// Boundaries that are named in comments at most.
 const MOST_NAMED: usize = 60;
-
-/// Contacts that are left out, up to which each is told with its reason.
-const MOST_TOLD: usize = 3;
 
 /// Unknowns that the example may have, and times those of the first mesh at least, so that there is room to adapt it.
 const MOST_UNKNOWNS: usize = 200_000;
