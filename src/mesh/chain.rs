@@ -2,10 +2,17 @@
 
 use super::macro_mesh::MacroMesh;
 use crate::geometry::{Curve, Point, Spline, chord_lengths, cross};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// A boundary that turns by more than this at a vertex (radians, 20 degrees) has a corner there.
 const CORNER: f64 = 20.0 * std::f64::consts::PI / 180.0;
+
+/// Neighbouring edges that turn by less (radians, 50 degrees) may be chords of an arc: a half circle of four turns by 45.
+const CHORDS: f64 = 50.0 * std::f64::consts::PI / 180.0;
+
+/// Neighbouring chords of an arc differ in length by this factor at most.
+const ALIKE: f64 = 2.0;
 
 /// A part of a boundary without corners and gaps.
 #[derive(Clone, Debug)]
@@ -70,6 +77,25 @@ impl MacroMesh {
         }
     }
 
+    /// The largest turn (radians) at a corner between two straight edges of a boundary, each a smooth stretch of its own, that may be
+    /// chords of a coarsely drawn arc: of like length, and with a turn of less than 50 degrees. Nothing if there is none.
+    pub fn turn_of_chords(&self, edges: &[u32]) -> Option<f64> {
+        let chains = self.chains(edges);
+        let single = chains.iter().filter(|chain| chain.len() == 1).map(|chain| chain[0]);
+        let single: Vec<u32> = single.filter(|&edge| self.edges[edge as usize].shape.is_none()).collect();
+        let starts: HashMap<u32, u32> = single.iter().map(|&edge| (self.directed(edge)[0], edge)).collect();
+        let along = |edge: u32| {
+            let points = self.chain_points(&[edge]);
+            points[1] - points[0]
+        };
+        let turn = |&edge: &u32| {
+            let [one, next] = [along(edge), along(*starts.get(&self.directed(edge)[1])?)];
+            let ratio = one.norm() / next.norm();
+            Some(one.angle(&next)).filter(|turn| *turn < CHORDS && ratio < ALIKE && ratio > 1.0 / ALIKE)
+        };
+        single.iter().filter_map(turn).reduce(f64::max)
+    }
+
     /// Vertices of a chain of edges.
     pub(super) fn chain_points(&self, chain: &[u32]) -> Vec<Point> {
         let corner = |edge: u32, end: usize| self.vertices[self.directed(edge)[end] as usize];
@@ -107,8 +133,19 @@ fn rows(ends: &[[u32; 2]], mut goes_on: impl FnMut(usize, usize) -> bool) -> Vec
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::two_blocks;
+    use super::super::samples::{fan, two_blocks};
     use super::*;
+
+    #[test]
+    fn chords_of_a_coarse_arc_are_told_from_smooth_sides_and_polygons() {
+        let turn = |sides: usize| {
+            let mesh = fan(sides);
+            mesh.turn_of_chords(mesh.edges_of("rim")).map(|turn| turn.to_degrees().round())
+        };
+        assert_eq!([40, 19, 16, 8, 7, 6, 4].map(turn), [None, None, Some(23.0), Some(45.0), None, None, None]);
+        let mesh = two_blocks();
+        assert_eq!(mesh.turn_of_chords(mesh.edges_of("upper.seam")), None);
+    }
 
     #[test]
     fn looks_at_pairs_of_edges_grow_as_their_number() {

@@ -3,8 +3,8 @@
 use crate::contact::{ActiveSet, GapChoice, SetChange};
 use crate::discretisation::{Contact, Solution, SystemError, adrift, bilateral, few_that_hold, not_held};
 use crate::procedure::ending::{Ending, Failure, Standing};
+use crate::procedure::sets::carried_set::carried_set;
 use crate::procedure::sets::contact_state::ContactState;
-use crate::procedure::sets::first_set::{carried_set, first_set};
 use crate::procedure::sets::pass::{Pass, relative_change};
 use crate::procedure::sets::residual_scale::{LOOSE, last_residual, share, share_of_forces};
 use crate::procedure::sets::unsettled::{going_on, places};
@@ -122,7 +122,7 @@ pub struct ContactLoop<'s, 'a> {
 }
 
 impl<'s, 'a> ContactLoop<'s, 'a> {
-    /// Begins with a start, or where bodies touch before they are strained. **Collective**
+    /// Begins with a start, with the set that the programme has found, or with all closed where nothing is known. **Collective**
     pub fn begin(
         system: &'s mut System<'a>,
         start: Option<Start>,
@@ -139,7 +139,7 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
                 set.start_from(&carried);
             }
             system.begin(&Start { active: set.active().to_vec(), ..start })?;
-        } else if let Some(first) = problem.first_set.clone().or_else(|| first_set(system)) {
+        } else if let Some(first) = problem.first_set.clone() {
             set.start_from(&first);
             system.set_active(set.active())?;
         }

@@ -1,8 +1,8 @@
 //! One contact boundary: one active set after the other, until one stands.
 
+mod carried_set;
 mod contact_loop;
 mod contact_state;
-mod first_set;
 mod pass;
 mod residual_scale;
 mod unsettled;

@@ -32,6 +32,25 @@ pub fn check_moduli(case: &Case) -> Result<(), String> {
     }
 }
 
+/// No side of a contact is of chords that turn by more than 20 degrees each: as a polygon, pressures at its corners grow without bound.
+///
+/// # Errors
+/// Words that begin with the key, and tell the remedy.
+pub fn check_chords(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
+    for pair in &case.contacts {
+        for name in pair.between.iter().filter(|name| case.tool_of(name).is_none()) {
+            if let Some(turn) = mesh.turn_of_chords(mesh.edges_of(name)) {
+                return Err(format!(
+                    "contact.{}.between: \"{name}\" has single edges that turn by {:.0} degrees, like chords of an arc that is meshed coarsely; tell its shape by a [geometry], mesh it finer or with second-order elements; if these are sides of a polygon, give each a name of its own",
+                    pair.name,
+                    turn.to_degrees()
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
 /// A body is of one piece, has vertices enough, and nothing but contact resists the motions whose mean is held.
 ///
 /// # Errors

@@ -1,7 +1,7 @@
 //! What mends a pressure that is too inexact, in the terms of its case.
 
 use crate::case::{Case, MOST_REFINE};
-use crate::contact::{Pair, Quadrature, SegmentRule};
+use crate::contact::{Pair, Quadrature, SegmentRule, Stabilise};
 use crate::element::Order;
 use crate::run::verdict::limits::{P1_STIFF, Remedy};
 
@@ -56,6 +56,7 @@ fn stability(pair: &Pair, case: &Case) -> &'static str {
     let locked = case.mesh.order == Order::P1 && parts.any(|part| part.material.poisson_in_plane() > P1_STIFF);
     match (locked, pair.segments == SegmentRule::Auto) {
         (true, _) => "take mesh.order = 2: P1 triangles lock",
+        _ if pair.stabilise == Stabilise::On => "take another multiplier space, or refine the mesh",
         (_, true) => "take stabilise = true, another multiplier space, or refine the mesh",
         _ => "take fewer segments (\"auto\" is safe), stabilise = true, or another multiplier space",
     }

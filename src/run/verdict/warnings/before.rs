@@ -33,11 +33,12 @@ pub fn slits(mesh: &MacroMesh) -> Vec<String> {
 
 /// Parts that P1 triangles are too stiff for.
 pub fn locking(scene: &Scene) -> Vec<String> {
+    let strained = scene.bodies.iter().enumerate().filter(|(body, _)| !scene.is_rigid(*body)).flat_map(|(_, body)| &body.parts);
     let locks = |part: &&BodyPart| scene.order == Order::P1 && part.material.poisson_in_plane() > P1_STIFF;
     let words = |part: &BodyPart| {
         format!("body {} has ν = {}: P1 triangles lock towards 0.5; take mesh.order = 2", part.name, part.material.poisson)
     };
-    scene.parts().into_iter().filter(locks).map(words).collect()
+    strained.filter(locks).map(words).collect()
 }
 
 /// Contacts with such segments, and what is done about them.
