@@ -310,3 +310,29 @@ output.fields = false
         assert!(ended.said().contains("body strip turns by"), "{}", ended.said());
     }
 }
+
+/// A leaf that is bent round a drum presses beside its wall and where it leaves the drum. It bends between these zones, so that
+/// the one does not feel how the other turns: the force is that of deformed bodies.
+#[test]
+fn zones_that_bend_towards_each_other_are_judged_by_themselves() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let leaf = grid(30, 2, 0, |u, v| [15.0 * u, 0.5 * v]);
+    let case = r#"
+mesh = { file = "mesh.msh", refine = 2 }
+body.leaf = { young = 1000.0, poisson = 0.3 }
+support.wall = { on = "wall", ux = 0.0, uy = 0.0 }
+rigid.drum.circle = { centre = [0.0, -200.0], radius = 200.0 }
+load.tip = { on = "tip", traction = [0.0, -0.01] }
+contact.seam = { between = ["below", "rigid.drum"], curve = "fit" }
+accuracy = { pressure = 1e-2 }
+"#;
+    let file = write_scene(folder.path(), &Mesh { bodies: vec![("leaf", leaf, ["below", "tip", "", "wall"])] }.text(), case);
+    let force = |ranks: usize, configuration: &str| {
+        let ended = Run::file(&file).ranks(ranks).set("contact.seam.configuration", configuration).converged();
+        let error = ended.number("/contact/seam/rotation_error");
+        assert!(error < 0.1, "{error}: {}", ended.said());
+        ended.number("/contact/seam/force")
+    };
+    let [reference, deformed] = [force(2, "reference"), force(1, "deformed")];
+    assert!((reference / deformed - 1.0).abs() < 2e-3, "{reference} and {deformed}");
+}

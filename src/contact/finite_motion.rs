@@ -25,11 +25,13 @@ pub struct Turn {
 pub struct GapError {
     /// `∫λ e ds` (force times length); growth is not part of it.
     pub work: f64,
-    /// Standard deviation of e from its mean, weighted with λ (length).
+    /// Standard deviation of e from its mean, weighted with λ (length); of the zone where it is largest.
     pub deviation: f64,
     /// Standard deviation of e from a straight line along Γ_C, weighted with λ (length): without the tilt that moves a contact with
-    /// two free ends.
+    /// two free ends; of the zone where it is largest.
     pub bend: f64,
+    /// The force of each zone times how far its mean of e is from that of all, added up (force times length).
+    pub between: f64,
 }
 
 /// How far two bodies slide and turn where they press, and what the linear gap leaves out.
@@ -73,8 +75,7 @@ pub fn finite_motion(
     if force == 0.0 {
         return FiniteMotion::default();
     }
-    let tilts = sides.map_or([0.0; 2], |sides| sides.map(|side| mean_tilt(side, boundary, &points)));
-    let pressed_point = |&[t, weight, arc]: &[f64; 3]| {
+    let pressed_point = |&[t, weight, arc]: &[f64; 3], tilts: [f64; 2]| {
         let (x, normal) = (boundary.point(t), boundary.normal(t));
         let [slip, moved, shifted] = match sides {
             Some(sides) => {
@@ -86,11 +87,16 @@ pub fn finite_motion(
         let growth = turns.map(|turn| 0.5 * turn.angle * turn.angle * (x - turn.middle).dot(&normal));
         Some(PressedPoint { weight, arc, slip, moved, shifted, grown: growth[0] - growth[1] })
     };
-    let pressed: Vec<PressedPoint> = points.iter().filter_map(pressed_point).collect();
+    // Between zones that lie farther apart than all of them are long, bodies may bend: each turns by itself.
+    let zones = points.chunk_by(|one, next| next[2] - one[2] <= length).map(|points| {
+        let tilts = sides.map_or([0.0; 2], |sides| sides.map(|side| mean_tilt(side, boundary, points)));
+        points.iter().filter_map(|point| pressed_point(point, tilts)).collect()
+    });
+    let zones: Vec<Vec<PressedPoint>> = zones.collect();
     FiniteMotion {
-        slip: mean(&pressed, |point| point.slip * point.slip).sqrt(),
-        whole: gap_error(&pressed, force, |point| point.moved),
-        turning: gap_error(&pressed, force, |point| point.moved - point.shifted),
+        slip: mean(zones.iter().flatten(), |point| point.slip * point.slip).sqrt(),
+        whole: gap_error(&zones, force, |point| point.moved),
+        turning: gap_error(&zones, force, |point| point.moved - point.shifted),
         force,
         length,
     }
@@ -122,23 +128,34 @@ fn count_from_a_gap(points: &mut [[f64; 3]], turn: f64) {
     let gap = |k: usize| if k == 0 { points[0][2] + turn - points[count - 1][2] } else { points[k][2] - points[k - 1][2] };
     let first = (0..count).max_by(|&a, &b| gap(a).total_cmp(&gap(b))).unwrap_or(0);
     points[..first].iter_mut().for_each(|point| point[2] += turn);
+    points.rotate_left(first);
 }
 
 /// Mean weighted with λ; zero without points.
-fn mean(pressed: &[PressedPoint], value: impl Fn(&PressedPoint) -> f64) -> f64 {
-    let total: f64 = pressed.iter().map(|point| point.weight).sum();
-    if total == 0.0 { 0.0 } else { pressed.iter().map(|point| point.weight * value(point)).sum::<f64>() / total }
+fn mean<'a>(pressed: impl IntoIterator<Item = &'a PressedPoint>, value: impl Fn(&PressedPoint) -> f64) -> f64 {
+    let weighted = |[sum, total]: [f64; 2], point: &PressedPoint| [sum + point.weight * value(point), total + point.weight];
+    let [sum, total] = pressed.into_iter().fold([0.0; 2], weighted);
+    if total == 0.0 { 0.0 } else { sum / total }
 }
 
 /// Work of a gap that is left out, and how uneven it is together with growth.
-fn gap_error(pressed: &[PressedPoint], force: f64, gap: impl Fn(&PressedPoint) -> f64) -> GapError {
+fn gap_error(zones: &[Vec<PressedPoint>], force: f64, gap: impl Fn(&PressedPoint) -> f64) -> GapError {
     let all = |point: &PressedPoint| gap(point) + point.grown;
-    let (middle, error) = (mean(pressed, |point| point.arc), mean(pressed, all));
-    let square = mean(pressed, |point| (all(point) - error).powi(2));
-    let spread = mean(pressed, |point| (point.arc - middle).powi(2));
-    let common = mean(pressed, |point| (point.arc - middle) * (all(point) - error));
-    let tilted = if spread > 0.0 { common * common / spread } else { 0.0 };
-    GapError { work: force * mean(pressed, gap), deviation: square.sqrt(), bend: (square - tilted).max(0.0).sqrt() }
+    let mean_of_all = mean(zones.iter().flatten(), all);
+    let start = GapError { work: force * mean(zones.iter().flatten(), &gap), ..GapError::default() };
+    zones.iter().fold(start, |found, zone| {
+        let (middle, error) = (mean(zone, |point| point.arc), mean(zone, all));
+        let square = mean(zone, |point| (all(point) - error).powi(2));
+        let spread = mean(zone, |point| (point.arc - middle).powi(2));
+        let common = mean(zone, |point| (point.arc - middle) * (all(point) - error));
+        let tilted = if spread > 0.0 { common * common / spread } else { 0.0 };
+        GapError {
+            deviation: found.deviation.max(square.sqrt()),
+            bend: found.bend.max((square - tilted).max(0.0).sqrt()),
+            between: found.between + zone.iter().map(|point| point.weight).sum::<f64>() * (error - mean_of_all).abs(),
+            ..found
+        }
+    })
 }
 
 /// Angle by which a side is turned where it presses, its mean weighted with λ (radians).
@@ -238,7 +255,7 @@ mod tests {
         let slope = sum(&|x| (x - mean_x) * error(x)) / sum(&|x| (x - mean_x) * (x - mean_x));
         let deviation = (sum(&|x| (error(x) - mean).powi(2)) / total).sqrt();
         let bend = (sum(&|x| (error(x) - mean - slope * (x - mean_x)).powi(2)) / total).sqrt();
-        GapError { work: sum(&error), deviation, bend }
+        GapError { work: sum(&error), deviation, bend, between: 0.0 }
     }
 
     fn assert_near(found: GapError, wanted: GapError, tolerance: f64) {
@@ -335,5 +352,28 @@ mod tests {
         assert!((found.turning.bend / (0.02 * 0.3 * odd) - 1.0).abs() < 1e-2, "{found:?}");
         assert_eq!(of([at(0.1, 0.3); 2]).whole, GapError::default(), "both grow alike");
         assert_eq!(finite_motion(None, [nothing; 2], &boundary, &multipliers, &[-1.0; 50]), FiniteMotion::default());
+    }
+
+    /// Both ends of an arc press: each is judged by itself, and the way from one to the other by their forces.
+    #[test]
+    fn zones_that_lie_far_apart_turn_by_themselves() {
+        let arc = Curve::Circle { centre: [1.0, 2.0], radius: 0.5 };
+        let mut boundary = ContactBoundary::new(arc, [-1.0, 1.0], Point::new(1.0, 0.0));
+        boundary.cut(&(0..=50).map(|k| f64::from(k) / 50.0).collect::<Vec<_>>());
+        let multipliers = Multipliers::new(MultiplierSpace::P0, &boundary);
+        let turn = Turn { angle: -0.2, middle: Point::new(1.0, 2.3) };
+        let of = |presses: fn(usize) -> bool| {
+            let lambda: Vec<f64> = (0..50).map(|k| if presses(k) { 3.0 } else { 0.0 }).collect();
+            finite_motion(None, [turn, Turn::default()], &boundary, &multipliers, &lambda).whole
+        };
+        let found = of(|k| !(5..45).contains(&k));
+        // Growth goes like the sine of the angle; its mean and mean square between .8 and 1.
+        let mean = (0.8f64.cos() - 1f64.cos()) / 0.2;
+        let square = 0.5 - (2f64.sin() - 1.6f64.sin()) / 0.8;
+        let growth = 0.02 * 0.3;
+        assert!((found.between / (0.6 * growth * mean) - 1.0).abs() < 1e-3, "{found:?}");
+        assert!((found.deviation / (growth * (square - mean * mean).sqrt()) - 1.0).abs() < 1e-2, "{found:?}");
+        let near = of(|k| !(15..35).contains(&k));
+        assert!(near.between == 0.0 && near.deviation > 0.5 * growth, "they lie nearer than they are long: {near:?}");
     }
 }

@@ -137,7 +137,9 @@ fn one(
     let error = |gap: &GapError| {
         // By how much the energy, and so the force where displacements set it, is off.
         let force = if is_set { 0.0 } else { (growth - gap.work).abs() / (2.0 * energy) };
-        force.max(pressure_error(contact, &found, gap)).max(rolled)
+        // From zone to zone, as far as bodies give way between them: by the loads they do so as far as their energy tells.
+        let between = gap.between / (2.0 * energy);
+        force.max(pressure_error(contact, &found, gap)).max(between).max(rolled)
     };
     Some(MotionError {
         slip: sides.map(|_| found.slip / found.length),
