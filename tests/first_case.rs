@@ -210,7 +210,7 @@ fn contacts_that_check_refuses_are_left_out_of_first_cases() {
     for words in [
         "\n# Left out, since `mezha check` refuses it:\n",
         "# [contact.seam]\n# between = [\"lower.seam\", \"upper.seam\"]",
-        "pieces with different shapes",
+        "like chords of an arc; tell its shape by a [geometry]",
         // No support is made up for a body that has neither contact nor support: what would hold it is told.
         "# This case does not pass `mezha check` yet:\n#   body \"upper\" has neither contact nor support; mend the contact",
         "# Body \"upper\" has neither contact nor support. This would hold it:\n# [support.upper-still]\n",
@@ -226,7 +226,7 @@ fn contacts_that_check_refuses_are_left_out_of_first_cases() {
     let told = format!("{output}{errors}");
     assert!(code == Some(3) && told.contains("no contact can be made of them: ") && !told.contains("paste this"), "{told}");
     let (_, _, errors) = mezha_in(folder.path(), None, &["new", "mesh.msh"]);
-    let words = ["is left out: ", "pieces with different shapes", "body \"upper\" has neither contact nor support"];
+    let words = ["is left out: ", "like chords of an arc", "body \"upper\" has neither contact nor support"];
     assert!(words.iter().all(|words| errors.contains(words)), "{errors}");
 }
 

@@ -8,8 +8,8 @@ use std::sync::Arc;
 /// A boundary that turns by more than this at a vertex (radians, 20 degrees) has a corner there.
 const CORNER: f64 = 20.0 * std::f64::consts::PI / 180.0;
 
-/// Neighbouring edges that turn by less (radians, 50 degrees) may be chords of an arc: a half circle of four turns by 45.
-const CHORDS: f64 = 50.0 * std::f64::consts::PI / 180.0;
+/// Neighbouring edges that turn by less (radians, 55 degrees) may be chords of an arc: a circle of seven turns by 51, a hexagon by 60.
+pub const WIDEST_CHORD: f64 = 55.0 * std::f64::consts::PI / 180.0;
 
 /// Neighbouring chords of an arc differ in length by this factor at most.
 const ALIKE: f64 = 2.0;
@@ -78,7 +78,7 @@ impl MacroMesh {
     }
 
     /// The largest turn (radians) at a corner between two straight edges of a boundary, each a smooth stretch of its own, that may be
-    /// chords of a coarsely drawn arc: of like length, and with a turn of less than 50 degrees. Nothing if there is none.
+    /// chords of a coarsely drawn arc: of like length, and with a turn of less than 55 degrees. Nothing if there is none.
     pub fn turn_of_chords(&self, edges: &[u32]) -> Option<f64> {
         let chains = self.chains(edges);
         let single = chains.iter().filter(|chain| chain.len() == 1).map(|chain| chain[0]);
@@ -91,7 +91,7 @@ impl MacroMesh {
         let turn = |&edge: &u32| {
             let [one, next] = [along(edge), along(*starts.get(&self.directed(edge)[1])?)];
             let ratio = one.norm() / next.norm();
-            Some(one.angle(&next)).filter(|turn| *turn < CHORDS && ratio < ALIKE && ratio > 1.0 / ALIKE)
+            Some(one.angle(&next)).filter(|turn| *turn < WIDEST_CHORD && ratio < ALIKE && ratio > 1.0 / ALIKE)
         };
         single.iter().filter_map(turn).reduce(f64::max)
     }
@@ -142,7 +142,7 @@ mod tests {
             let mesh = fan(sides);
             mesh.turn_of_chords(mesh.edges_of("rim")).map(|turn| turn.to_degrees().round())
         };
-        assert_eq!([40, 19, 16, 8, 7, 6, 4].map(turn), [None, None, Some(23.0), Some(45.0), None, None, None]);
+        assert_eq!([40, 19, 16, 8, 7, 6, 4].map(turn), [None, None, Some(23.0), Some(45.0), Some(51.0), None, None]);
         let mesh = two_blocks();
         assert_eq!(mesh.turn_of_chords(mesh.edges_of("upper.seam")), None);
     }

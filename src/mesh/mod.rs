@@ -73,7 +73,7 @@ pub(crate) mod samples;
 mod tools;
 
 pub use boundaries::{Boundaries, Boundary};
-pub use chain::Stretch;
+pub use chain::{Stretch, WIDEST_CHORD};
 pub use curve_piece::{CurvePiece, LooseCurve};
 pub use curved::{BoundaryVertex, Corner, SmoothNormals, SmoothPoint};
 pub use faults::Slit;

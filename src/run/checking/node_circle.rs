@@ -1,8 +1,7 @@
 //! Circles that the nodes of a boundary lie on.
 
-use crate::contact::WIDEST_TURN;
 use crate::geometry::{Point, cross};
-use crate::mesh::MacroMesh;
+use crate::mesh::{MacroMesh, WIDEST_CHORD};
 
 /// Distance of nodes from the circle at most, as a share of its radius.
 const OFF: f64 = 1e-6;
@@ -41,7 +40,7 @@ impl NodeCircle {
         let radius = (first - centre).norm();
         let is_on = points.iter().all(|x| ((x - centre).norm() - radius).abs() <= OFF * radius);
         let angle = |[a, b]: &[Point; 2]| 2.0 * (0.5 * (b - a).norm() / radius).min(1.0).asin();
-        (is_on && lines.iter().all(|line| angle(line) <= WIDEST_TURN)).then_some(Self { centre, radius })
+        (is_on && lines.iter().all(|line| angle(line) < WIDEST_CHORD)).then_some(Self { centre, radius })
     }
 }
 
@@ -64,7 +63,8 @@ mod tests {
         let found = |mesh: &MacroMesh| NodeCircle::of_edges(mesh, &mesh.boundaries[0].edges);
         let circle = found(&fan(16)).expect("16 edges of 22.5 degrees");
         assert!((circle.centre - Point::new(3.0, -1.0)).norm() < 1e-12 && (circle.radius - 2.0).abs() < 1e-12, "{circle:?}");
-        assert_eq!(found(&fan(8)), None, "an octagon");
+        assert!(found(&fan(7)).is_some());
+        assert_eq!(found(&fan(6)), None, "a hexagon");
         assert_eq!(found(&columns(5, 1.0)), None);
     }
 }

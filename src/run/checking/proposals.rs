@@ -9,6 +9,7 @@ use crate::element::Order;
 use crate::geometry::Point;
 use crate::mesh::{Level, MacroMesh, Numbering, Partition, Spot};
 use crate::procedure::Procedure;
+use crate::run::reading::checks::coarse_arcs;
 use crate::run::reading::scene;
 use std::rc::Rc;
 use toml::Value;
@@ -67,7 +68,7 @@ impl TableNames {
 pub(crate) fn common_name([first, second]: &[String; 2]) -> String {
     let last = |name: &str| name.rsplit(['.', '_', ' ', '-']).next().unwrap_or_default().to_owned();
     let (a, b) = (last(first), last(second));
-    if a == b && !a.is_empty() && a.len() < first.len() { a } else { format!("{first}-{second}") }
+    if a == b && a.contains(char::is_alphabetic) && a.len() < first.len() { a } else { format!("{first}-{second}") }
 }
 
 /// `[contact.NAME]` of a pair.
@@ -148,7 +149,12 @@ pub(crate) fn take_refused<T>(
 pub(crate) fn refused_contacts(case: &Case) -> Vec<([String; 2], String)> {
     let mut case = case.clone();
     case.plates.clear();
-    let mesh = scene::read_mesh_file(&case).and_then(|bytes| scene::read_mesh(&case, &bytes));
+    let Ok(bytes) = scene::read_mesh_file(&case) else { return Vec::new() };
+    let coarse = scene::read_bare_mesh(&case, &bytes).map(|mesh| coarse_arcs(&case, &mesh)).unwrap_or_default();
+    if !coarse.is_empty() {
+        return coarse.into_iter().map(|(pair, why)| (pair.between.clone(), why)).collect();
+    }
+    let mesh = scene::read_mesh(&case, &bytes);
     let Some(scene) = mesh.ok().and_then(|mesh| scene::first(&case, mesh).ok()) else { return Vec::new() };
     let Ok(numbering) = discretisation::finest_numbering(&scene) else { return Vec::new() };
     let refused = discretisation::refused_contacts(&scene, &numbering);
@@ -341,5 +347,6 @@ mod tests {
         assert_eq!([key("disc"), key("half disc"), key("a.b"), key("")], ["disc", "\"half disc\"", "\"a.b\"", "\"\""]);
         let common = |a: &str, b: &str| common_name(&[a.into(), b.into()]);
         assert_eq!([common("lower.seam", "upper.seam"), common("top", "rim"), common("a", "b.a")], ["seam", "top-rim", "a-b.a"]);
+        assert_eq!(common("pin_2", "hole_2"), "pin_2-hole_2", "a number says nothing");
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::body::{Body, BodyPart, HeldMode, MeanHold, Springs, Support, rigid_displacement};
 use crate::case::{BodyExact, Case, ContactExact, ExpectedAt, LambdaExact};
-use crate::contact::ContactBoundary;
+use crate::contact::{ContactBoundary, Pair};
 use crate::discretisation::Contact;
 use crate::geometry::{Coordinates, Formula, Point, Rounded};
 use crate::mesh::MacroMesh;
@@ -32,23 +32,17 @@ pub fn check_moduli(case: &Case) -> Result<(), String> {
     }
 }
 
-/// No side of a contact is of chords that turn by more than 20 degrees each: as a polygon, pressures at its corners grow without bound.
-///
-/// # Errors
-/// Words that begin with the key, and tell the remedy.
-pub fn check_chords(case: &Case, mesh: &MacroMesh) -> Result<(), String> {
-    for pair in &case.contacts {
-        for name in pair.between.iter().filter(|name| case.tool_of(name).is_none()) {
-            if let Some(turn) = mesh.turn_of_chords(mesh.edges_of(name)) {
-                return Err(format!(
-                    "contact.{}.between: \"{name}\" has single edges that turn by {:.0} degrees, like chords of an arc that is meshed coarsely; tell its shape by a [geometry], mesh it finer or with second-order elements; if these are sides of a polygon, give each a name of its own",
-                    pair.name,
-                    turn.to_degrees()
-                ));
-            }
-        }
-    }
-    Ok(())
+/// Contacts of which a side is of chords that turn by more than 20 degrees each, and words for it: of a polygon, pressures at its corners
+/// would grow without bound.
+pub fn coarse_arcs<'a>(case: &'a Case, mesh: &MacroMesh) -> Vec<(&'a Pair, String)> {
+    let sides = case.contacts.iter().flat_map(|pair| pair.between.iter().map(move |name| (pair, name)));
+    let coarse = sides.filter(|(_, name)| case.tool_of(name).is_none()).filter_map(|(pair, name)| {
+        let turn = mesh.turn_of_chords(mesh.edges_of(name))?.to_degrees();
+        Some((pair, format!(
+            "\"{name}\" has single edges that turn by {turn:.0} degrees, like chords of an arc; tell its shape by a [geometry], mesh it finer or with second-order elements; if these are sides of a polygon, give each a name of its own"
+        )))
+    });
+    coarse.collect()
 }
 
 /// A body is of one piece, has vertices enough, and nothing but contact resists the motions whose mean is held.

@@ -9,7 +9,7 @@ use crate::mesh::{MacroMesh, Partition, each_once, parse_gmsh, read_bytes, touch
 use crate::output::RunError;
 use crate::petsc::Session;
 use crate::procedure::Procedure;
-use crate::run::reading::checks::{check_chords, check_exact, check_means, check_moduli};
+use crate::run::reading::checks::{check_exact, check_means, check_moduli, coarse_arcs};
 use crate::run::reading::names::{Names, together, unknown_part};
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -56,7 +56,9 @@ pub fn read_mesh(case: &Case, bytes: &[u8]) -> Result<MacroMesh, String> {
 /// Words that begin with the key.
 fn completed(case: &Case, mut mesh: MacroMesh) -> Result<MacroMesh, String> {
     add_tools(case, &mut mesh)?;
-    check_chords(case, &mesh)?;
+    if let Some((pair, words)) = coarse_arcs(case, &mesh).first() {
+        return Err(format!("contact.{}.between: {words}", pair.name));
+    }
     let fitted = case.contacts.iter().filter(|pair| pair.curve.is_found()).flat_map(|pair| &pair.between);
     let fitted = fitted.filter(|name| case.tool_of(name).is_none());
     mesh.bend_onto_splines(&fitted.collect::<Vec<_>>());
