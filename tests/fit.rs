@@ -205,6 +205,31 @@ fn a_cylinder_that_slides_keeps_its_pressure_or_tells() {
     }
 }
 
+/// A pad that slides on a wider flat presses up to its corners, wherever they have come to lie on the way.
+#[test]
+fn a_pad_that_slides_ends_at_its_own_corners() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let flat = grid(24, 6, 0, |u, v| [20.0 * u - 10.0, 4.0 * (v - 1.0)]);
+    let pad = grid(13, 5, 0, |u, v| [10.0 * u - 5.0, 4.0 * v]);
+    let bodies = vec![("flat", flat, ["base", "", "flat.top", ""]), ("pad", pad, ["pad.bottom", "", "pad.top", ""])];
+    let case = r#"
+mesh = { file = "mesh.msh", refine = 2 }
+body.flat = { young = 3000.0, poisson = 0.3 }
+body.pad = { young = 3000.0, poisson = 0.3 }
+support.base = { on = "base", ux = 0.0, uy = 0.0 }
+load.top = { on = "pad.top", rigid = true, force = [0.0, -40.0], angle = 0.0 }
+contact.seam = { between = ["flat.top", "pad.bottom"], configuration = "deformed" }
+"#;
+    let file = write_scene(folder.path(), &Mesh { bodies }.text(), case);
+    for (ranks, slip) in [(2, 1.0), (1, -0.9)] {
+        let ended = Run::file(&file).ranks(ranks).set("load.top.ux", slip).converged();
+        let [force, cut] = ["force", "zones/0/cut_off"].map(|key| ended.number(&format!("/contact/seam/{key}")));
+        assert!((force - 40.0).abs() < 0.01 && cut == 0.0, "{force}, {cut}: {}", ended.said());
+        assert_eq!(ended.value("/contact/seam/trust"), true, "{}", ended.said());
+        assert_eq!(ended.value("/contact/seam/zones/0/corner"), true, "{}", ended.said());
+    }
+}
+
 /// A block a third of its height above another.
 #[test]
 fn a_declared_gap_that_is_not_the_drawn_one_is_told() {

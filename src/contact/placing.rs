@@ -39,6 +39,8 @@ pub struct Placed {
     pub limits: [f64; 2],
     /// Where the two sides meet, for one that is found by that.
     pub meeting: Option<Meeting>,
+    /// Displacement of body 1 and of body 2 at both ends of Γ_C, where it lies on deformed bodies; zero elsewhere.
+    pub moved: [[Point; 2]; 2],
     /// Edges of body 1 and of body 2 that it lies between.
     pub edges: [Vec<BoundaryEdge>; 2],
     /// Moduli of both bodies (stress), by which the softer one is told.
@@ -112,9 +114,14 @@ pub fn place(
         check_cover(mesh, pair, sides, &boundary)?;
     }
     let (meeting, smooth) = fitted.unzip();
-    let placed = Placed { boundary, limits, meeting, edges, young }.cut(numbering.level.order, pair, known.segments);
+    let placed = Placed { boundary, limits, moved: Default::default(), meeting, edges, young };
+    let mut placed = placed.cut(numbering.level.order, pair, known.segments);
     if let Some((meeting, smooth)) = placed.meeting.as_ref().zip(smooth).filter(|_| pair.curve == CurveChoice::Fit) {
-        check_stray(meeting.sides(&smooth), &placed.boundary, pair)?;
+        let sides = meeting.sides(&smooth);
+        check_stray(sides, &placed.boundary, pair)?;
+        if pair.configuration == Configuration::Deformed {
+            placed.moved = sides.map(|side| placed.boundary.ends().map(|t| side.moved(placed.boundary.point(t))));
+        }
     }
     Ok(placed)
 }

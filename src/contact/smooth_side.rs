@@ -221,6 +221,12 @@ impl SmoothSide {
         (self.undeformed.point(t), turn_right(self.undeformed.tangent(t)) * self.hand)
     }
 
+    /// Displacement of what lies nearest to `x` now (length).
+    pub fn moved(&self, x: Point) -> Point {
+        let t = self.nearest(x, Configuration::Deformed).clamp(0.0, self.length());
+        self.deformed.point(t) - self.undeformed.point(t)
+    }
+
     /// The undeformed node nearest to `x`.
     pub fn nearest_node(&self, x: Point) -> usize {
         let away = |node: &usize| (self.places[*node] - x).norm_squared();

@@ -90,7 +90,7 @@ fn goes_on_in_another_shape(contact: &Contact, mesh: &MacroMesh, end: usize) -> 
     let around = mesh.boundary_vertices();
     [0, 1].into_iter().all(|side| {
         let vertices = mesh.edges_of(&contact.pair.between[side]).iter().flat_map(|&edge| mesh.edges[edge as usize].vertices);
-        let away = |vertex: &u32| (mesh.vertices[*vertex as usize] - here).norm_squared();
+        let away = |vertex: &u32| (mesh.vertices[*vertex as usize] + contact.moved[side][end] - here).norm_squared();
         let nearest = vertices.min_by(|a, b| away(a).total_cmp(&away(b)));
         around
             .iter()

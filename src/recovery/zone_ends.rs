@@ -118,7 +118,7 @@ pub fn outwards(contact: &Contact, mesh: &MacroMesh, side: usize, end: usize) ->
     let boundary = &contact.boundary;
     let [first, last] = boundary.ends();
     let vertices = mesh.edges_of(&contact.pair.between[side]).iter().flat_map(|&edge| mesh.edges[edge as usize].vertices);
-    let way = |vertex: u32| boundary.foot(mesh.vertices[vertex as usize]) - 0.5 * (first + last);
+    let way = |vertex: u32| boundary.foot(mesh.vertices[vertex as usize] + contact.moved[side][end]) - 0.5 * (first + last);
     let mut ways: Vec<(u32, f64)> = vertices.map(|vertex| (vertex, way(vertex))).collect();
     if let Some(period) = boundary.period() {
         ways.iter_mut().for_each(|(_, way)| *way = way.rem_euclid(period));

@@ -64,6 +64,8 @@ pub struct Contact {
     pub found: Option<[Point; 2]>,
     /// Parameters of Γ_C beyond which one of the bodies has no boundary; infinite where both go all around.
     pub limits: [f64; 2],
+    /// Displacement of body 1 and of body 2 at both ends of Γ_C, where it lies on deformed bodies; zero elsewhere.
+    pub moved: [[Point; 2]; 2],
     /// Whether a load acts on the boundary of body 1, and of body 2: its stress is not that of the contact alone.
     pub loaded: [bool; 2],
     /// Whether body 1, and body 2, is a rigid tool.
@@ -202,6 +204,7 @@ impl Contact {
             known: Known { meeting: placed.meeting, ends, segments, coarser: known.coarser, touch: known.touch },
             found: None,
             limits: placed.limits,
+            moved: placed.moved,
             rigid: bodies.map(|body| scene.is_rigid(body)),
             loaded: sides.each_ref().map(|edges| is_loaded(scene, edges)),
             boundary,
