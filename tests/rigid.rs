@@ -290,6 +290,10 @@ fn a_tool_that_tips_is_told_to_hold_its_turn_itself() {
     );
     let held = in_folder(&block(), &format!("{case}, angle = 0.0 }}\n"), |run| run.ranks(2).converged());
     close(held.number("/contact/top/force"), 5.0, 5.0, "it is pressed down");
+    let lifted = format!("{case}, angle = 0.0 }}\n").replace("[0.0, -5.0]", "[0.0, 5.0]");
+    let lifted = in_folder(&block(), &lifted, |run| run.ranks(2).ended());
+    let words = "prescribe ux and uy of [rigid.die] in the place of its force";
+    assert!(lifted.code == Some(3) && lifted.said().contains(words), "{}", lifted.said());
 }
 
 /// A wave presses with its force on any mesh: one on which it lies in the block by a tenth of what it has come down is refined all the same.

@@ -221,12 +221,16 @@ impl<'s> Predictor<'s> {
         let drive = if loads.len() > 1 { "drive" } else { "drives" };
         let (name, body) = (self.scene.mesh.name_of_piece(piece), &self.scene.bodies[self.scene.mesh.pieces[piece].body].name);
         let motion = &mechanism.motion;
+        let is_rigid = self.scene.is_rigid(self.scene.mesh.pieces[piece].body);
         let hold = match turns {
-            true if self.scene.is_rigid(self.scene.mesh.pieces[piece].body) => {
+            true if is_rigid => {
                 format!("hold its turn: give [{body}] angle = 0.0 in the place of its moment")
             }
             true => {
                 format!("hold its turn, in its mean say: [support.{body}] with mean = true, body = \"{body}\" and angle = 0.0")
+            }
+            false if is_rigid => {
+                format!("prescribe ux and uy of [{body}] in the place of its force")
             }
             false => "let a support on one of its boundaries, or at a point of it, carry what acts on it".into(),
         };

@@ -12,7 +12,7 @@ pub fn length(v: f64) -> String {
 
 /// A number to two digits, however small it is.
 pub fn short(v: f64) -> String {
-    if v.abs() < 0.01 { format!("{v:.1e}") } else { format!("{v:.2}") }
+    if v.abs() < 0.01 && v != 0.0 { format!("{v:.1e}") } else { format!("{v:.2}") }
 }
 
 /// A number to two digits that say something, beside another of its size.

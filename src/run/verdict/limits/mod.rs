@@ -9,6 +9,9 @@ mod table;
 
 pub use table::*;
 
+/// A value that passes its limit by less than this share of it does so by rounding: a zone of just four edges has 3.999999999999 of them.
+const ROUNDING: f64 = 1e-9;
+
 /// What helps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Remedy {
@@ -59,7 +62,10 @@ const fn least(row: LimitRow) -> Limit {
 impl Limit {
     /// A doubt if the value is known and passes the limit; `named` are further words of the sentence.
     pub fn judge(&'static self, value: Option<f64>, named: &[(&str, &str)]) -> Option<Doubt> {
-        let is_passed = |value: &f64| if self.is_least { *value < self.value } else { *value > self.value };
+        let is_passed = |value: &f64| match self.is_least {
+            true => *value < self.value * (1.0 - ROUNDING),
+            false => *value > self.value * (1.0 + ROUNDING),
+        };
         value.filter(is_passed).map(|value| self.doubt(value, named))
     }
 

@@ -93,6 +93,12 @@ fn a_value_just_beyond_its_limit_is_told_from_it() {
     );
 }
 
+#[test]
+fn a_limit_that_is_just_met_is_no_doubt() {
+    assert!(EDGES.judge(Some(3.999_999_999_999), &[]).is_none());
+    assert!(EDGES.judge(Some(3.9999), &[]).is_some_and(|doubt| doubt.figure.contains("3.9999 edges wide")));
+}
+
 const METHOD: &str = include_str!("../../../../docs/method.md");
 const LIMITS: &str = include_str!("../../../../docs/limits.md");
 const HARD_CASES: &str = include_str!("../../../../docs/hard-cases.md");
