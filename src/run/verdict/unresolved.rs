@@ -1,7 +1,7 @@
 //! Whether a solution is one of what the case says: not if its mesh, or its contact boundaries, cannot hold that.
 
 use crate::accuracy::{
-    DEEPEST, HERTZ_BY_UNRESOLVED, LEFT, NARROWEST, ROUNDING_BY_OVERLAP, WORTH_WITHIN_SEGMENTS, share_of_nothing,
+    DEEPEST, Goal, HERTZ_BY_UNRESOLVED, LEFT, NARROWEST, Quantity, ROUNDING_BY_OVERLAP, WORTH_WITHIN_SEGMENTS, share_of_nothing,
 };
 use crate::case::Case;
 use crate::contact::{Configuration, Law, Pair, SegmentRule};
@@ -167,12 +167,14 @@ impl Judged<'_> {
 
     /// What would resolve a contact: a mesh with enough edges on each, or an accuracy.
     fn remedy(&self, contact: &str) -> String {
-        if self.case.accuracy.is_some() {
-            let tolerance = 0.25 * share_of_nothing(self.case.accuracy.as_ref());
+        if let Some(accuracy) = &self.case.accuracy {
+            let tolerance = 0.25 * share_of_nothing(Some(accuracy));
+            let of_pressure = |goal: &&Goal| matches!(&goal.quantity, Quantity::Pressure(of) if of == contact);
+            let pressure = accuracy.goals.iter().filter(of_pressure).map(|goal| 0.25 * goal.tolerance).reduce(f64::min);
             // A force that statics tells is exact on any mesh: another error of it makes none finer.
             let error = self.summary.estimate.contact.get(contact).and_then(|own| own.force);
             let (quantity, tolerance) = match error.is_some_and(|error| error < tolerance) {
-                true => ("pressure", 4.0 * tolerance),
+                true => ("pressure", pressure.unwrap_or(4.0 * tolerance)),
                 false => ("force", tolerance),
             };
             return format!("ask for a smaller error, as in [accuracy.contact.{contact}] {quantity} = {tolerance:.0e}");
@@ -203,13 +205,15 @@ mod tests {
     /// Where the force is known better than would be asked for, another quantity makes the mesh finer.
     #[test]
     fn an_error_that_is_small_enough_is_not_asked_for() {
-        for (error, told) in
-            [(Some(1e-8), "[accuracy.contact.seam] pressure = 1e-2"), (None, "[accuracy.contact.seam] force = 3e-3")]
-        {
+        for (error, asked, told) in [
+            (Some(1e-8), "accuracy.force=1e-2", "[accuracy.contact.seam] pressure = 1e-2"),
+            (None, "accuracy.force=1e-2", "[accuracy.contact.seam] force = 3e-3"),
+            (Some(1e-8), "accuracy.pressure=1e-2", "[accuracy.contact.seam] pressure = 3e-3"),
+        ] {
             let contact = ContactSummary { unresolved_force: Some(1.0), force: Some(1.0), ..ContactSummary::default() };
             let mut summary = Summary { contact: [("seam".to_owned(), contact)].into(), ..Summary::default() };
             summary.estimate.contact.insert("seam".into(), ContactEstimate { force: error, ..ContactEstimate::default() });
-            let words = unresolved(&summary, &case(&["accuracy.force=1e-2"]), None).expect("it is within segments");
+            let words = unresolved(&summary, &case(&[asked]), None).expect("it is within segments");
             assert!(words.ends_with(told), "{words}");
         }
     }
