@@ -17,8 +17,9 @@
 //! round body that turns about its centre does both, and the one undoes the other. Where equilibrium sets the force its error is
 //! zero. Where both ends of contact lie inside the boundaries, a tilt of the gap moves the contact and does not change λ.
 //!
-//! Zones that lie farther apart than all of them are long are judged by themselves: a leaf that is bent round a former presses at its
-//! root and where it leaves the former, and was told to be off by .95 as one stretch. Its force is off by 1.5e-3, and .007 is told.
+//! Zones that lie farther apart than all of them are long are judged by themselves. A leaf that is bent round a former presses at its root
+//! and where it leaves the former: as one stretch it was told to be off by .95, by zones .09; on edges a quarter as long .007 is told for
+//! a true 1.5e-3.
 
 use super::balance::Balance;
 use super::deformation::Deformation;
