@@ -141,7 +141,7 @@ fn one(
     let error = |gap: &GapError| {
         // By how much the energy, and so the force where displacements set it, is off.
         let force = if is_set { 0.0 } else { (growth - gap.work).abs() / (2.0 * energy) };
-        // From zone to zone, as far as bodies give way between them: by the loads they do so as far as their energy tells.
+        // Between two zones the bodies give way as they do to the loads, and their energy tells by how much that is.
         let between = gap.between / (2.0 * energy);
         force.max(pressure_error(contact, &found, gap)).max(between).max(rolled)
     };
