@@ -123,6 +123,10 @@ pub const NARROWEST: f64 = 1.0;
 /// Force that overlaps within segments are worth, as a share of the force that was found, beyond which a contact is not resolved.
 pub const WORTH_WITHIN_SEGMENTS: f64 = 0.5;
 
+/// That share beyond which its pressure is doubted, and a finer mesh is taken where an accuracy is asked for: a tenth of Hertz's approach,
+/// some 3 F/E, is worth as much.
+pub const DOUBTED_WITHIN_SEGMENTS: f64 = 0.1;
+
 /// How deep bodies may lie in each other, as a share of how far they have come together: in all cases of the project it is below 3 %.
 pub const DEEPEST: f64 = 0.1;
 

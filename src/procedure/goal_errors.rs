@@ -1,7 +1,7 @@
 //! Estimated errors of the goals of an accuracy.
 
 use crate::accuracy::{
-    CUT, DEEPEST, Goal, HERTZ_BY_UNRESOLVED, LEFT, ProbePoint, Quantity, ROUNDING_BY_OVERLAP, WORTH_WITHIN_SEGMENTS,
+    CUT, DEEPEST, DOUBTED_WITHIN_SEGMENTS, Goal, HERTZ_BY_UNRESOLVED, LEFT, ProbePoint, Quantity, ROUNDING_BY_OVERLAP,
 };
 use crate::contact::{Law, Penetration, Zone};
 use crate::discretisation::{BoundaryMotion, Contact, Discretisation, Field, SystemError, needed_contacts};
@@ -125,7 +125,7 @@ impl Procedure<'_> {
         let pressure = solution.pressure(contact);
         let points = trace_points(problem, &pressure, &u)?;
         let off = unresolved_force(contact, &points, 0.0);
-        let is_within_segments = off > WORTH_WITHIN_SEGMENTS * own && HERTZ_BY_UNRESOLVED * off > least;
+        let is_within_segments = off > DOUBTED_WITHIN_SEGMENTS * own && off > least;
         let has_few_edges = pressure.has_few_edges(least);
         let is_cut = smooth_joints(at, problem, solution).cut > CUT;
         let is_too_narrow = has_few_edges && pressure.is_too_narrow(&problem.scene.mesh, &points, least);

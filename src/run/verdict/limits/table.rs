@@ -5,7 +5,7 @@
 
 use super::Remedy::{Finer, MoreSegments, Stability, Words};
 use super::{Limit, least, most};
-use crate::accuracy::CUT;
+use crate::accuracy::{CUT, DOUBTED_WITHIN_SEGMENTS};
 use crate::run::words::{short, two_digits};
 
 fn one(value: f64) -> String { format!("{value:.1}") }
@@ -91,7 +91,7 @@ pub static OVERLAP_BEYOND: Limit = most((0.01, two_digits, Words("take ends = \"
 
 /// `unresolved_force`: share of the force that penetration within single segments may be worth: more is contact narrower than
 /// they are.
-pub static WITHIN_SEGMENTS: Limit = most((0.1, two, MoreSegments, "the bodies penetrate each other within segments",
+pub static WITHIN_SEGMENTS: Limit = most((DOUBTED_WITHIN_SEGMENTS, two, MoreSegments, "the bodies penetrate each other within segments",
     "the bodies penetrate each other within segments{worth}"));
 
 /// `zones[].cut_off`: λ where a zone is cut off, by its largest.
