@@ -36,8 +36,6 @@ pub struct Discretisation {
     pub motion: BoundaryMotion,
     /// What holds each body whose mean motion is held: force, and moment about its middle (per thickness).
     pub mean_forces: Vec<[f64; 3]>,
-    /// What presses as far as the programme of the first mesh tells, where no solution is known.
-    pub first_set: Option<Vec<bool>>,
     /// What bodies and loads alone give, once it has been asked for.
     pub without_contact: WithoutContact,
 }
@@ -83,7 +81,6 @@ impl Discretisation {
             coupling,
             motion,
             mean_forces,
-            first_set: None,
             without_contact: WithoutContact::default(),
         })
     }
@@ -94,7 +91,7 @@ impl Discretisation {
     /// [`SystemError::Case`] if a contact boundary cannot be measured.
     pub fn replace(&mut self, contacts: Vec<Contact>, motion: BoundaryMotion) -> Result<(), SystemError> {
         self.coupling = Coupling::new(&self.scene, &self.spaces, &contacts, &self.session)?;
-        (self.contacts, self.motion, self.first_set) = (contacts, motion, None);
+        (self.contacts, self.motion) = (contacts, motion);
         Ok(())
     }
 

@@ -112,7 +112,7 @@ pub struct ContactLoop<'s, 'a> {
     /// Residual that the last solve goes to, and that of the present one, relative to the whole right-hand side.
     tolerance: f64,
     goal: f64,
-    /// Whether the first set and its solution come from a coarser mesh or another boundary, and can be trusted.
+    /// Whether the first set and its solution come from the programme, a coarser mesh or another boundary, and can be trusted.
     is_carried: bool,
     /// How often contact was kept that a body needs.
     kept: usize,
@@ -122,7 +122,7 @@ pub struct ContactLoop<'s, 'a> {
 }
 
 impl<'s, 'a> ContactLoop<'s, 'a> {
-    /// Begins with a start, with the set that the programme has found, or with all closed where nothing is known. **Collective**
+    /// Begins with a start, or with all closed where nothing is known. **Collective**
     pub fn begin(
         system: &'s mut System<'a>,
         start: Option<Start>,
@@ -139,9 +139,6 @@ impl<'s, 'a> ContactLoop<'s, 'a> {
                 set.start_from(&carried);
             }
             system.begin(&Start { active: set.active().to_vec(), ..start })?;
-        } else if let Some(first) = problem.first_set.clone() {
-            set.start_from(&first);
-            system.set_active(set.active())?;
         }
         let relative = last_residual(system, tolerance)?;
         let share = share_of_forces(system, share(system)?, relative)?;

@@ -167,7 +167,6 @@ mod tests {
             coupling,
             motion: BoundaryMotion::default(),
             mean_forces: Vec::new(),
-            first_set: None,
             without_contact: WithoutContact::default(),
         }
     }
