@@ -7,7 +7,7 @@ const FIRST: f64 = 0.25;
 
 /// A contact that carries less than this share of the largest force of all, where no accuracy is asked for, only touches: it is a
 /// hundred times what solves to a residual of 1e-8 leave of such forces, and a hundredth of what forces are trusted to.
-const CARRIES_NOTHING: f64 = 1e-4;
+pub const CARRIES_NOTHING: f64 = 1e-4;
 
 /// A point of a body that is looked at.
 #[derive(Clone, Debug, PartialEq)]

@@ -101,8 +101,15 @@ fn a_mesh_without_levels_has_an_estimate_of_its_pressure() {
     }
 }
 
-/// Two blocks of 6 x 2, one on the other, with `edges` on the line between them; E = 1000, ν = 0.3.
+/// A run that has converged of [`blocks_ended`].
 fn blocks(edges: [usize; 2], case: &str, ranks: usize) -> Ended {
+    let ended = blocks_ended(edges, case, ranks);
+    assert_ne!(ended.value("/status"), "not_converged", "{}", ended.said());
+    ended
+}
+
+/// Two blocks of 6 x 2, one on the other, with `edges` on the line between them; E = 1000, ν = 0.3.
+fn blocks_ended(edges: [usize; 2], case: &str, ranks: usize) -> Ended {
     let block =
         |n: usize, seed: u64, from: f64| -> Block { grid(n, n.div_ceil(3), seed, |u, v| [6.0 * u - 3.0, from + 2.0 * v]) };
     let bodies = vec![
@@ -120,9 +127,7 @@ output.fields = false
     );
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = write_scene(folder.path(), &Mesh { bodies }.text(), &text);
-    let ended = Run::file(&file).ranks(ranks).ended();
-    assert_ne!(ended.value("/status"), "not_converged", "{}", ended.said());
-    ended
+    Run::file(&file).ranks(ranks).ended()
 }
 
 /// Two humps, one wide, one narrower than an edge: the wide one is fine, the whole is not.
@@ -280,5 +285,101 @@ output.fields = false
         let shares: Vec<f64> =
             zones.as_array().expect("zones").iter().map(|zone| zone["share"].as_f64().expect("a share")).collect();
         assert!((shares[..shares.len() / 2].iter().sum::<f64>() - 0.5).abs() < 0.005, "{shares:?}");
+    }
+}
+
+/// An interference of 2e-3 on a hump of the declared gap that is a tenth of an edge wide: the run says that its mesh does not see it, or takes
+/// meshes that do.
+#[test]
+fn a_hump_of_the_declared_gap_between_the_nodes_is_seen() {
+    let run = |accuracy: &str, ranks: usize| {
+        let gap = "1e-3 - 3e-3*exp(-((x-0.13)/0.03)^2)";
+        let case = format!(
+            r#"mesh.file = "mesh.msh"
+{accuracy}
+support.lid = {{ on = "top", uy = 0.0 }}
+contact.seam = {{ between = ["lower.seam", "upper.seam"], curve = "line", gap = "{gap}" }}"#
+        );
+        blocks_ended([12, 14], &case, ranks)
+    };
+    for ranks in [1, 2] {
+        let ended = run("", ranks);
+        assert_eq!((ended.code, ended.value("/contact/seam/trust")), (Some(3), false.into()), "{ranks} ranks: {}", ended.said());
+    }
+    let force = |goal: &str, ranks: usize| {
+        let ended = run(&format!("accuracy.{goal}"), ranks);
+        assert_eq!(ended.code, Some(0), "{goal}: {}", ended.said());
+        ended.number("/contact/seam/force")
+    };
+    let fine = force("force = 1e-3", 1);
+    assert!(fine > 0.1, "{fine}");
+    for ranks in [1, 2] {
+        let found = force("pressure = 1e-2", ranks);
+        assert!((found / fine - 1.0).abs() < 1e-2, "{ranks} ranks: {found} instead of {fine}");
+    }
+}
+
+/// Waves of the gap that are half an edge long, pressed to .9 of what flattens them (Westergaard): the first mesh has the same pressure
+/// everywhere, and no difference between its refinements.
+#[test]
+fn waves_shorter_than_an_edge_have_their_peaks() {
+    let (young, poisson) = (1000.0, 0.3);
+    let flattens = std::f64::consts::PI * 0.5 * young / (1.0 - poisson * poisson) * 1e-3 / 0.1875;
+    let load = 0.9 * flattens;
+    let case = format!(
+        "mesh.file = \"mesh.msh\"\naccuracy.pressure = 5e-2\nload.top = {{ on = \"top\", pressure = {load} }}\n
+         contact.seam = {{ between = [\"lower.seam\", \"upper.seam\"], curve = \"line\", gap = \"1e-3*(1-cos(2*pi*x/0.1875))\" }}"
+    );
+    for ranks in [1, 2] {
+        let ended = blocks_ended([16, 16], &case, ranks);
+        let peak = ended.number("/contact/seam/pressure_max") / (2.0 * (load * flattens).sqrt());
+        assert!(ended.code == Some(0) && (peak - 1.0).abs() < 0.04, "{ranks} ranks: {peak}, {}", ended.said());
+    }
+}
+
+/// A flat punch whose rounded edges are contacts of their own: each carries 1 % of the force, and the largest pressure. What is asked for
+/// of them is found, or said to be missed.
+#[test]
+fn rounded_edges_beside_a_flat_are_no_contacts_without_force() {
+    let round = |k: usize| 0.25 * std::f64::consts::FRAC_PI_4 * k as f64;
+    let bottom = |k: usize| match k {
+        0..4 => [-0.95 - 0.05 * round(4 - k).sin(), 0.05 - 0.05 * round(4 - k).cos()],
+        4..=20 => [0.95 * (std::f64::consts::FRAC_PI_2 * (k as f64 - 12.0) / 8.0).sin(), 0.0],
+        _ => [0.95 + 0.05 * round(k - 20).sin(), 0.05 - 0.05 * round(k - 20).cos()],
+    };
+    let mut punch = grid(24, 8, 0, |_, _| [0.0, 0.0]);
+    for (at, point) in punch.points.iter_mut().enumerate() {
+        let ([x, y], v) = (bottom(at % 25), (at / 25) as f64 / 8.0);
+        *point = [x, y + v * v * (1.0 - y)];
+    }
+    let right = punch.sides[0].split_off(20);
+    let flat = punch.sides[0].split_off(4);
+    punch.sides = [flat, right, punch.sides[2].clone(), punch.sides[0].clone()];
+    let bodies = vec![
+        ("base", grid(40, 12, 5, |u, v| [4.0 * u - 2.0, 2.0 * v - 2.0]), ["foot", "", "base.top", ""]),
+        ("punch", punch, ["flat", "right", "top", "left"]),
+    ];
+    let case = r#"
+mesh.file = "mesh.msh"
+body.base = { young = 1e5, poisson = 0.3 }
+body.punch = { young = 1e5, poisson = 0.3 }
+geometry.left = { curves = ["left"], circle = { centre = [-0.95, 0.05], radius = 0.05 } }
+geometry.right = { curves = ["right"], circle = { centre = [0.95, 0.05], radius = 0.05 } }
+support.foot = { on = "foot", ux = 0.0, uy = 0.0 }
+support.guide = { body = "punch", mean = true, ux = 0.0 }
+load.top = { on = "top", pressure = 50.0 }
+contact.flat = { between = ["base.top", "flat"] }
+contact.left = { between = ["base.top", "left"] }
+contact.right = { between = ["base.top", "right"] }
+accuracy = { pressure = 1e-2, max_unknowns = 110000 }
+output.fields = false
+"#;
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let ended = Run::file(&write_scene(folder.path(), &Mesh { bodies }.text(), case)).ranks(2).ended();
+    for name in ["left", "right"] {
+        let force = ended.number(&format!("/contact/{name}/force"));
+        let is_right = (force / 0.97 - 1.0).abs() < 0.1;
+        let is_told = ended.value(&format!("/contact/{name}/trust")) != true;
+        assert!(is_right || is_told && ended.code == Some(3), "{name}: {force}, {}", ended.said());
     }
 }

@@ -193,7 +193,8 @@ impl Procedure<'_> {
         Ok(all)
     }
 
-    /// The contact beside which the mesh is refined for a goal: one that it cannot hold, or of which nothing tells an error. **Collective**
+    /// The contact beside which the mesh is refined for a goal: one that it cannot hold, or of which nothing tells an error, or on which
+    /// nothing presses though it may. **Collective**
     fn not_held_by_mesh<'s>(
         &self,
         solved: &'s Solved,
@@ -206,8 +207,12 @@ impl Procedure<'_> {
         if let Some(contact) = self.kept_by(goal, solved)? {
             return Ok(Some(contact));
         }
-        let name = goal.quantity.contact().filter(|name| tells_nothing && carries(solved, name, goal.tolerance));
-        Ok(solved.problem.contacts.iter().find(|contact| name.is_some_and(|name| contact.pair.name == name)))
+        let is_of_goal = |contact: &&Contact| goal.quantity.contact().is_some_and(|name| contact.pair.name == name);
+        let counts = |contact: &&Contact| {
+            let is_open = solved.solution.pressure(contact).zones().is_empty();
+            is_open || tells_nothing && carries(solved, &contact.pair.name, goal.tolerance)
+        };
+        Ok(solved.problem.contacts.iter().find(is_of_goal).filter(counts))
     }
 
     /// The dual displacement of each goal that is missed, where the solution has one. **Collective**

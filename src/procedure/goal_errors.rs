@@ -3,8 +3,8 @@
 use crate::accuracy::{
     CUT, DEEPEST, DOUBTED_WITHIN_SEGMENTS, Goal, HERTZ_BY_UNRESOLVED, LEFT, ProbePoint, Quantity, ROUNDING_BY_OVERLAP,
 };
-use crate::contact::{Law, Penetration, Zone};
-use crate::discretisation::{BoundaryMotion, Contact, Discretisation, Field, SystemError, needed_contacts};
+use crate::contact::{GapChoice, Law, Penetration, Zone};
+use crate::discretisation::{BY_ROUNDING, BoundaryMotion, Contact, Discretisation, Field, SystemError, needed_contacts};
 use crate::procedure::estimates::AtEnds;
 use crate::procedure::settings::Procedure;
 use crate::procedure::solved::Solved;
@@ -35,7 +35,12 @@ impl Procedure<'_> {
     /// A contact that is not resolved though a goal with this `error` is reached: that of the goal, or any where it is none of one
     /// contact, which carries more than the goal's tolerance of the largest force. Meshes that do not hold a contact may agree on its force, and on
     /// the energy. **Collective**
-    fn unresolved_contact(&self, goal: &Goal, error: Option<f64>, solved: &Solved) -> Result<Option<usize>, SystemError> {
+    pub(super) fn unresolved_contact(
+        &self,
+        goal: &Goal,
+        error: Option<f64>,
+        solved: &Solved,
+    ) -> Result<Option<usize>, SystemError> {
         let contacts = &solved.problem.contacts;
         let of_goal = |at: &usize| goal.quantity.contact().is_none_or(|name| contacts[*at].pair.name == name);
         let all = if error.is_some_and(|error| error <= goal.tolerance) { 0..contacts.len() } else { 0..0 };
@@ -97,7 +102,7 @@ impl Procedure<'_> {
         let force = |contact: &Contact| solution.pressure(contact).force().abs();
         let largest = problem.contacts.iter().map(force).fold(0.0, f64::max);
         let own = force(&problem.contacts[at]);
-        if problem.contacts.len() == 1 || largest == 0.0 || own > SMALL * largest {
+        if problem.contacts.len() == 1 || largest == 0.0 || own > SMALL * largest || is_shared(solved, at) {
             return Ok(1.0);
         }
         let u = Field::displacement(problem, &solution.displacement);
@@ -117,7 +122,8 @@ impl Procedure<'_> {
         let Solved { problem, solution, .. } = solved;
         let force = |contact: &Contact| solution.pressure(contact).force().abs();
         let (contact, own) = (&problem.contacts[at], force(&problem.contacts[at]));
-        let least = tolerance * problem.contacts.iter().map(force).fold(0.0, f64::max);
+        let largest = problem.contacts.iter().map(force).fold(0.0, f64::max);
+        let least = if is_shared(solved, at) { 0.0 } else { tolerance * largest };
         if own <= least || is_rounding(solved, at) {
             return Ok(false);
         }
@@ -186,19 +192,21 @@ impl Procedure<'_> {
         Ok(errors.and_then(|errors| errors.into_iter().reduce(f64::max)))
     }
 
-    /// Whether something presses on a contact, or nothing does for sure: nothing moves, or its bodies are farther apart than that
-    /// distance changes from one point to the next, so that they do not meet in between. **Collective**
+    /// Whether something presses on a contact, or nothing does for sure: nothing moves bodies that lie as they are drawn, or they are
+    /// farther apart than that distance changes from one point to the next, so that they do not meet in between. **Collective**
     fn presses_or_is_clear(&self, solved: &Solved, at: usize) -> Result<bool, SystemError> {
         let Solved { problem, solution, estimate, .. } = solved;
         let pressure = solution.pressure(&problem.contacts[at]);
-        if !pressure.zones().is_empty() || estimate.difference == Some(0.0) {
+        let (pair, is_at_rest) = (&pressure.contact.pair, estimate.difference == Some(0.0));
+        if !pressure.zones().is_empty() || is_at_rest && !matches!(pair.gap, GapChoice::Formula(_)) {
             return Ok(true);
         }
         let u = Field::displacement(problem, &solution.displacement);
         let points = trace_points(problem, &pressure, &u)?;
         let gaps: Vec<f64> = points.iter().filter(|point| point.is_complete()).map(|point| point.gap).collect();
         let change = gaps.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
-        Ok(gaps.iter().all(|gap| *gap > change))
+        let least = if is_at_rest { -BY_ROUNDING * pressure.contact.boundary.length() } else { change };
+        Ok(gaps.iter().all(|gap| *gap > least))
     }
 
     /// Whether λ of a contact is known well enough that its zones cannot be open in their middle: its error is smaller than the
@@ -232,6 +240,11 @@ fn has_unbounded_peak(Solved { problem, solution, estimate, .. }: &Solved, at: u
     };
     let zones = pressure.zones();
     zones.iter().any(|zone| pressure.grows_at_joint(zone).is_some()) || zones.iter().zip(&estimate.at_ends(at)).any(grows)
+}
+
+/// Whether another contact goes on smoothly from one and presses beside it: the edge of a common pressure is no matter of its force.
+fn is_shared(Solved { problem, solution, .. }: &Solved, at: usize) -> bool {
+    !smooth_joints(at, problem, solution).shared.is_empty()
 }
 
 /// Whether rounding alone presses on a contact: that of bodies which move, or grow by heat, along it or away from it. **Collective**

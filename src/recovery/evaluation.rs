@@ -15,7 +15,7 @@ use super::probe::{Probed, Probing, probe};
 use super::shape_error::{force_by_shape, shape_error};
 use super::stress::{NodalStress, nodal_stress};
 use super::traces::{TracePoint, trace_points};
-use crate::contact::Penetration;
+use crate::contact::{GapChoice, Penetration};
 use crate::discretisation::{ContactPressure, Discretisation, Field, Solution, SystemError, needed_contacts};
 use crate::geometry::Point;
 use crate::mesh::Region;
@@ -135,7 +135,7 @@ impl<'a> Evaluation<'a> {
     /// Force that is missing because bodies overlap where nothing presses, relative to the force found; without a force, the
     /// largest overlap relative to the largest relative displacement.
     pub fn missing_force(&self, contact: usize, zones: &[[f64; 2]], points: &[TracePoint]) -> (Option<f64>, f64) {
-        missing_force(&self.problem.contacts[contact], zones, points, self.balance.contacts[contact].force, self.way())
+        missing_force(&self.problem.contacts[contact], zones, points, self.balance.contacts[contact].force, self.way(contact))
     }
 
     /// Force that overlaps all beyond a contact boundary are worth, relative to the force found.
@@ -145,12 +145,18 @@ impl<'a> Evaluation<'a> {
 
     /// Force that penetration within single segments of a contact is worth (force per thickness).
     pub fn unresolved_force(&self, contact: usize, points: &[TracePoint]) -> f64 {
-        unresolved_force(&self.problem.contacts[contact], points, self.way())
+        unresolved_force(&self.problem.contacts[contact], points, self.way(contact))
     }
 
-    /// The way by which overlaps are measured (length): where nothing has moved, bodies lie in each other by rounding alone.
-    fn way(&self) -> f64 {
-        if self.moved == 0.0 { f64::INFINITY } else { self.moved }
+    /// The way by which overlaps in a contact are measured (length): where nothing has moved, bodies lie in each other by rounding alone,
+    /// unless the case declares their gap.
+    fn way(&self, contact: usize) -> f64 {
+        let contact = &self.problem.contacts[contact];
+        match contact.pair.gap {
+            _ if self.moved > 0.0 => self.moved,
+            GapChoice::Formula(_) => contact.boundary.length(),
+            GapChoice::Geometry | GapChoice::Closed => f64::INFINITY,
+        }
     }
 
     /// Both bodies' traces along a contact boundary. **Collective**

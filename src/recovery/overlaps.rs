@@ -17,7 +17,7 @@ const LEFT: f64 = 1e-7;
 const ROUNDING: f64 = 1e-12;
 
 /// Force that is missing because bodies overlap where no segment presses: relative to the force found, or, without a force, the
-/// largest overlap relative to the largest relative displacement; and as it is (force per thickness; of the whole ring in bodies of
+/// largest overlap relative to the largest relative displacement, if that is larger; and as it is (force per thickness; of the whole ring in bodies of
 /// revolution).
 ///
 /// A pressure p over a width w moves the boundary by about 2 p w/E; so an overlap δ asks for the force E δ/2, however wide. Bodies
@@ -37,7 +37,7 @@ pub fn missing_force(contact: &Contact, zones: &[[f64; 2]], points: &[TracePoint
         largest = largest.max(overlap);
     }
     sum += deepest;
-    let missing = if zones.is_empty() { largest / whole } else { 0.5 * sum / force.abs() };
+    let missing = if zones.is_empty() { largest / whole.max(largest) } else { 0.5 * sum / force.abs() };
     (Some(missing).filter(|missing| missing.is_finite()), 0.5 * sum)
 }
 

@@ -1,6 +1,6 @@
 //! Both bodies' traces along Γ_C.
 
-use crate::contact::{Distance, EdgeOverlap, edge_overlaps, trace};
+use crate::contact::{Distance, EdgeOverlap, GapChoice, edge_overlaps, trace};
 use crate::discretisation::{Contact, ContactPressure, Discretisation, Field, SystemError, agreed};
 use crate::element::{by_order, heated_stress};
 use crate::geometry::{Point, gauss_points};
@@ -9,6 +9,9 @@ use crate::petsc::Session;
 
 /// Gauss points of each part of Γ_C that results are given at.
 const POINTS: usize = 2;
+
+/// Places between two nodes at which a declared gap is looked at.
+const SAMPLES: usize = 32;
 
 /// Sums of each body at a point: a count, and the values of [`BodyTrace::on_edge`].
 const VALUES: usize = 5;
@@ -160,14 +163,29 @@ fn parameters(contact: &Contact, cuts: &[f64], session: &Session) -> (Vec<f64>, 
             parameters.extend([knots[segment], knots[segment]]);
             segments.extend([segment - 1, segment]);
         }
-        for (z, _) in gauss_points(POINTS) {
-            parameters.push(ends[0] + z * (ends[1] - ends[0]));
-            segments.push(segment);
-        }
+        let mut points: Vec<f64> = gauss_points(POINTS).iter().map(|(z, _)| ends[0] + z * (ends[1] - ends[0])).collect();
+        points.extend(narrow_dip(contact, [ends[0], points[0], points[1], ends[1]]));
+        points.sort_by(f64::total_cmp);
+        segments.extend(points.iter().map(|_| segment));
+        parameters.extend(points);
     }
     parameters.push(knots[knots.len() - 1]);
     segments.push(contact.boundary.segments() - 1);
     (parameters, segments)
+}
+
+/// Where a gap that the case declares is lowest between points, if it is lower by more than it differs among them: a hump that is narrower
+/// than an edge. That of a parabola is at most half as deep.
+fn narrow_dip(contact: &Contact, points: [f64; 4]) -> Option<f64> {
+    let GapChoice::Formula(formula) = &contact.pair.gap else { return None };
+    let gap = |t: f64| {
+        let x = contact.boundary.point(t);
+        formula.value(&[x.x, x.y])
+    };
+    let [least, most] = [f64::min, f64::max].map(|pick| points.map(gap).into_iter().reduce(pick).unwrap_or(f64::NAN));
+    let between = (1..SAMPLES).map(|k| points[0] + k as f64 / SAMPLES as f64 * (points[3] - points[0]));
+    let lowest = between.min_by(|a, b| gap(*a).total_cmp(&gap(*b)))?;
+    (least - gap(lowest) > (most - least).max(1e-12 * least.abs())).then_some(lowest)
 }
 
 /// Stress on a boundary edge, in the triangle beside it.

@@ -124,9 +124,10 @@ impl Summary {
         if count <= MOST_TOLD {
             return None;
         }
-        let is_idle = |contact: &ContactSummary| contact.judged.verdict.as_ref().is_some_and(|words| !words.contains("trusted"));
+        let says = |contact: &ContactSummary, word| contact.judged.verdict.as_ref().is_some_and(|words| words.starts_with(word));
         let kind = |contact: &ContactSummary| match contact.judged.trust {
-            Some(true) if is_idle(contact) => "touch or are open",
+            _ if says(contact, "touches") => "touch or are open",
+            Some(true) if says(contact, "nothing presses") => "touch or are open",
             Some(true) => "are trusted",
             Some(false) => "are not trusted",
             None => "nothing tells of",

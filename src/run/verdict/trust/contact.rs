@@ -4,7 +4,7 @@
 use super::remedies::{CUT, Mended};
 use super::told::{Objection, Verdict};
 use super::zones::{fewest_edges, is_on_few_segments, is_proved, overlaps, unknown_of, zone_doubts};
-use crate::accuracy::{Quantity, share_of_nothing};
+use crate::accuracy::{CARRIES_NOTHING, Quantity, share_of_nothing};
 use crate::body::BodyPart;
 use crate::case::Case;
 use crate::contact::{Pair, Quadrature};
@@ -20,19 +20,31 @@ const NOTHING_PRESSES: &str = "nothing presses";
 
 /// The verdict on a contact, as it was solved. Trust is false if a figure speaks against the pressure, or if the solve that it comes
 /// from has not `converged`; it is null if nothing tells, or if the corner of a body presses on too few edges. Of a contact that
-/// carries next to nothing of the largest force no zone need be resolved.
+/// carries next to nothing of the largest force no zone need be resolved: it is null if that is only what the accuracy allows, and the
+/// zones do not hold.
 pub fn verdict(summary: &Summary, contact: &ContactSummary, mended: Mended, converged: bool) -> Verdict {
-    let Mended { pair, case, .. } = mended;
-    let mut doubts = stability_doubts(contact);
+    let case = mended.case;
     if !converged {
-        return Verdict { trust: Some(false), trust_force: Some(false), ..Verdict::of(doubts, mended) };
+        return Verdict { trust: Some(false), trust_force: Some(false), ..Verdict::of(stability_doubts(contact), mended) };
     }
     if is_rounding(summary, contact, case) {
         let words = "the bodies touch without being strained, and press by rounding alone";
         return Verdict { unknown: Some(Objection { cause: words, words: words.into(), remedy: None }), ..Verdict::default() };
     }
-    let idle = idle_words(contact, case, summary.largest_force());
-    let carries = idle.is_none();
+    let Some(idle) = idle_words(contact, case, summary.largest_force()) else { return judged(summary, contact, mended, true) };
+    let own = judged(summary, contact, mended, false);
+    // What counts as nothing because no more is asked for may have a pressure all the same, and is believed where its zones hold.
+    let is_something = contact.force.is_some_and(|force| force.abs() > CARRIES_NOTHING * summary.largest_force());
+    if own.trust == Some(true) && is_something && judged(summary, contact, mended, true).trust != Some(true) {
+        return Verdict { trust: None, idle: Some(format!("{idle}; its pressure is not resolved")), ..own };
+    }
+    Verdict { idle: Some(idle), ..own }
+}
+
+/// The same of a contact that carries something, or of one that next to nothing presses on.
+fn judged(summary: &Summary, contact: &ContactSummary, mended: Mended, carries: bool) -> Verdict {
+    let Mended { pair, case, .. } = mended;
+    let mut doubts = stability_doubts(contact);
     let force = summary.estimate.contact.get(&pair.name).and_then(|own| own.force);
     let unbalanced = balance_doubts(summary, case);
     // Where nothing presses, meshes agree on a force of zero though the bodies overlap.
@@ -56,7 +68,7 @@ pub fn verdict(summary: &Summary, contact: &ContactSummary, mended: Mended, conv
     let unknown = uncut(pair).or_else(|| unknown_of(contact, trust_force, mended.by(Remedy::MoreSegments)));
     let unknown = unknown.filter(|_| carries);
     let trust = if doubts.is_empty() { unknown.is_none().then_some(true) } else { Some(false) };
-    let idle = idle.or_else(|| (contact.force == Some(0.0) && contact.zones.is_empty()).then(|| NOTHING_PRESSES.into()));
+    let idle = (contact.force == Some(0.0) && contact.zones.is_empty()).then(|| NOTHING_PRESSES.into());
     Verdict { unknown, trust, trust_force, idle, ..Verdict::of(doubts, mended) }
 }
 
@@ -69,6 +81,10 @@ pub fn refinements_wanted(summary: &Summary, case: &Case) -> usize {
 
 /// What a contact is called that carries next to nothing of the largest force, with all that overlaps beside it are worth.
 pub fn idle_words(contact: &ContactSummary, case: &Case, most: f64) -> Option<String> {
+    // What goes on smoothly from another contact has the edge of its pressure.
+    if !contact.shares_with.is_empty() {
+        return None;
+    }
     let share = share_of_nothing(case.accuracy.as_ref());
     let force = contact.force?.abs();
     let worth = force + contact.unresolved_force?.max(contact.missing_force.unwrap_or(0.0));
