@@ -35,12 +35,7 @@ impl Procedure<'_> {
     /// A contact that is not resolved though a goal with this `error` is reached: that of the goal, or any where it is none of one
     /// contact, which carries more than the goal's tolerance of the largest force. Meshes that do not hold a contact may agree on its force, and on
     /// the energy. **Collective**
-    pub(super) fn unresolved_contact(
-        &self,
-        goal: &Goal,
-        error: Option<f64>,
-        solved: &Solved,
-    ) -> Result<Option<usize>, SystemError> {
+    fn unresolved_contact(&self, goal: &Goal, error: Option<f64>, solved: &Solved) -> Result<Option<usize>, SystemError> {
         let contacts = &solved.problem.contacts;
         let of_goal = |at: &usize| goal.quantity.contact().is_none_or(|name| contacts[*at].pair.name == name);
         let all = if error.is_some_and(|error| error <= goal.tolerance) { 0..contacts.len() } else { 0..0 };

@@ -15,8 +15,8 @@ use crate::recovery::missing_beyond;
 /// with the pressure twice.
 const MOST_ON_THE_WAY: usize = 3;
 
-/// Number of the boundary from which on it keeps the nodes it is fitted to and its segments, and only its ends follow the pressure: it is
-/// cut no more.
+/// Number of the boundary from which on it keeps the nodes it is fitted to and its segments, and only its ends follow the pressure; one
+/// that is still closed then is not cut.
 const FROZEN: usize = 3;
 
 /// Change of the displacement, relative to its norm, at which it stands, by the relative residual of the last solve.

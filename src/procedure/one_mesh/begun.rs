@@ -2,7 +2,7 @@
 //! body moves.
 //!
 //! It gives displacements and pressures to begin with, and finer meshes begin with those of the mesh before: with its set alone
-//! the 101 cases took 8 % more cycles. Solving it again on each mesh takes more time than it saves: the disc in a box takes .7 s without
+//! 102 cases took 7 % more cycles. Solving it again on each mesh takes more time than it saves: the disc in a box takes .7 s without
 //! that and 1.1 s with it, the bearing 4.4 and 5.5 s. Where the programme would take more than some 3e8 operations, some 20 000 triangles
 //! of each body on the coarsest mesh, all contact is closed at first: two bars of 78 thousand triangles each, P2, took as many sets and
 //! iterations either way, and the programme 65 of 79 s.

@@ -174,8 +174,8 @@ impl Judged<'_> {
     fn remedy(&self, contact: &str) -> String {
         if let Some(accuracy) = &self.case.accuracy {
             let meshes = self.summary.accuracy.as_deref().unwrap_or_default();
-            let goals = meshes.iter().filter_map(|mesh| mesh.contact.get(contact)).flat_map(BTreeMap::values);
-            if meshes.len() > WITHOUT_ESTIMATE && goals.into_iter().all(|goal| goal.estimate.is_none()) {
+            let mut goals = meshes.iter().filter_map(|mesh| mesh.contact.get(contact)).flat_map(BTreeMap::values);
+            if meshes.len() > WITHOUT_ESTIMATE && goals.all(|goal| goal.estimate.is_none()) {
                 return format!("begin on a finer mesh: take mesh.refine = {}", meshes[0].refine + 2);
             }
             let tolerance = 0.25 * share_of_nothing(Some(accuracy));
