@@ -11,14 +11,9 @@ use crate::procedure::MOVES;
 use crate::run::verdict::limits::{FORCE_OFF, OVERLAP_ALONE};
 use crate::run::verdict::trust::{finer_mesh, refinements_wanted, slip_doubt, width};
 use crate::run::words::short;
-use std::collections::BTreeMap;
 
 /// A force below this share of the least one that counts is what solves leave: rings that heat has loosened had 4e-6 to 6e-5 of it.
 const ROUNDING: f64 = 1e-2;
-
-/// Meshes on which nothing tells an error, before a sequence ends. It goes on where it is begun with a finer one: a light disc on a block had
-/// its force at a place eight half widths off the right one, and after two refinements more the right pressure on its first mesh.
-const WITHOUT_ESTIMATE: usize = 4;
 
 /// What is judged at.
 struct Judged<'a> {
@@ -173,11 +168,6 @@ impl Judged<'_> {
     /// What would resolve a contact: a mesh with enough edges on each, or an accuracy.
     fn remedy(&self, contact: &str) -> String {
         if let Some(accuracy) = &self.case.accuracy {
-            let meshes = self.summary.accuracy.as_deref().unwrap_or_default();
-            let mut goals = meshes.iter().filter_map(|mesh| mesh.contact.get(contact)).flat_map(BTreeMap::values);
-            if meshes.len() > WITHOUT_ESTIMATE && goals.all(|goal| goal.estimate.is_none()) {
-                return format!("begin on a finer mesh: take mesh.refine = {}", meshes[0].refine + 2);
-            }
             let tolerance = 0.25 * share_of_nothing(Some(accuracy));
             let of_pressure = |goal: &&Goal| matches!(&goal.quantity, Quantity::Pressure(of) if of == contact);
             let pressure = accuracy.goals.iter().filter(of_pressure).map(|goal| 0.25 * goal.tolerance).reduce(f64::min);
@@ -196,7 +186,7 @@ impl Judged<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::summary::{AccuracyStep, ContactEstimate, GoalSummary, ZoneSummary};
+    use crate::output::summary::{ContactEstimate, ZoneSummary};
     use crate::run::verdict::trust::samples::{case, zone};
 
     /// A ring that is loose on its hub, or a sleeve between heads where nothing else presses, is held by rounding.
@@ -225,23 +215,6 @@ mod tests {
             summary.estimate.contact.insert("seam".into(), ContactEstimate { force: error, ..ContactEstimate::default() });
             let words = unresolved(&summary, &case(&[asked]), None).expect("it is within segments");
             assert!(words.ends_with(told), "{words}");
-        }
-    }
-
-    /// A sequence of meshes that never had an estimate does not get one by asking for more.
-    #[test]
-    fn a_sequence_without_an_estimate_is_begun_on_a_finer_mesh() {
-        let told = |meshes: usize, estimate: Option<f64>| {
-            let goals = [("pressure".to_owned(), GoalSummary { estimate, ..GoalSummary::default() })].into();
-            let mesh = AccuracyStep { refine: 1, contact: [("seam".to_owned(), goals)].into(), ..AccuracyStep::default() };
-            let contact = ContactSummary { unresolved_force: Some(1.0), force: Some(1.0), ..ContactSummary::default() };
-            let (contact, accuracy) = ([("seam".to_owned(), contact)].into(), Some(vec![mesh; meshes]));
-            let summary = Summary { contact, accuracy, ..Summary::default() };
-            unresolved(&summary, &case(&["accuracy.pressure=1e-2"]), None).expect("it is within segments")
-        };
-        assert!(told(5, None).ends_with("begin on a finer mesh: take mesh.refine = 3"), "{}", told(5, None));
-        for words in [told(4, None), told(5, Some(0.1))] {
-            assert!(words.contains("ask for a smaller error"), "{words}");
         }
     }
 
