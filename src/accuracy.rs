@@ -124,7 +124,7 @@ pub const NARROWEST: f64 = 1.0;
 pub const WORTH_WITHIN_SEGMENTS: f64 = 0.5;
 
 /// That share beyond which its pressure is doubted, and a finer mesh is taken where an accuracy is asked for: a tenth of Hertz's approach,
-/// some 3 F/E, is worth as much.
+/// some 3 F/E, is worth as much (an overlap by F/E was worth .3).
 pub const DOUBTED_WITHIN_SEGMENTS: f64 = 0.1;
 
 /// How deep bodies may lie in each other, as a share of how far they have come together: in all cases of the project it is below 3 %.

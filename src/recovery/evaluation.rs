@@ -133,7 +133,7 @@ impl<'a> Evaluation<'a> {
     }
 
     /// Force that is missing because bodies overlap where nothing presses, relative to the force found; without a force, the
-    /// largest overlap relative to the largest relative displacement.
+    /// largest overlap relative to the largest relative displacement, 1 if that is smaller.
     pub fn missing_force(&self, contact: usize, zones: &[[f64; 2]], points: &[TracePoint]) -> (Option<f64>, f64) {
         missing_force(&self.problem.contacts[contact], zones, points, self.balance.contacts[contact].force, self.way(contact))
     }

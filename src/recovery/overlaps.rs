@@ -17,8 +17,8 @@ const LEFT: f64 = 1e-7;
 const ROUNDING: f64 = 1e-12;
 
 /// Force that is missing because bodies overlap where no segment presses: relative to the force found, or, without a force, the
-/// largest overlap relative to the largest relative displacement, if that is larger; and as it is (force per thickness; of the whole ring in bodies of
-/// revolution).
+/// largest overlap relative to the largest relative displacement, 1 if that is smaller; and as it is (force per thickness; of the whole
+/// ring in bodies of revolution).
 ///
 /// A pressure p over a width w moves the boundary by about 2 p w/E; so an overlap δ asks for the force E δ/2, however wide. Bodies
 /// have `moved` by so much at most (length).

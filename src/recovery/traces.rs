@@ -10,7 +10,7 @@ use crate::petsc::Session;
 /// Gauss points of each part of Γ_C that results are given at.
 const POINTS: usize = 2;
 
-/// Places between two nodes at which a declared gap is looked at.
+/// Parts of the way between two nodes at whose ends a declared gap is looked at: a hump a thirtieth of it wide is seen.
 const SAMPLES: usize = 32;
 
 /// Sums of each body at a point: a count, and the values of [`BodyTrace::on_edge`].
@@ -175,7 +175,7 @@ fn parameters(contact: &Contact, cuts: &[f64], session: &Session) -> (Vec<f64>, 
 }
 
 /// Where a gap that the case declares is lowest between points, if it is lower by more than it differs among them: a hump that is narrower
-/// than an edge. That of a parabola is at most half as deep.
+/// than an edge. That of a parabola is at most half as deep, and of a constant there is none but by rounding.
 fn narrow_dip(contact: &Contact, points: [f64; 4]) -> Option<f64> {
     let GapChoice::Formula(formula) = &contact.pair.gap else { return None };
     let gap = |t: f64| {

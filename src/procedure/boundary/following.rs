@@ -79,7 +79,7 @@ pub struct Following {
 }
 
 impl Following {
-    /// Before the first solve; the last one goes to `tolerance`. Boundaries that a coarser mesh has found are `settled`; contacts that
+    /// Before the first solve; the last one goes to `tolerance`. Boundaries of a start are `settled`; contacts that
     /// carry less of the largest force than the errors that are `asked` for may lie anywhere.
     pub fn new(problem: &Discretisation, tolerance: f64, settled: bool, is_last: bool, asked: Option<&Accuracy>) -> Self {
         Self {

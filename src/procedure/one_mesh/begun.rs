@@ -171,8 +171,8 @@ pub fn work_of_programme(scene: &Scene, level: Level, contacts: &[Contact]) -> f
     bodies.iter().map(|[unknowns, multipliers]| 10.0 * unknowns.powf(1.5) + 60.0 * unknowns * multipliers).sum()
 }
 
-/// Whether bodies are free to roll or slide but for means that are held: there sets say nothing without the motions that go with
-/// them. Where supports hold bodies, the set of the programme is enough to begin with.
+/// Whether bodies are free to roll or slide but for means that are held: without the programme nothing is known of their motions,
+/// however dear it is.
 fn is_assembly(scene: &Scene) -> bool {
     !scene.means.is_empty()
 }

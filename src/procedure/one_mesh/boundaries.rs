@@ -96,8 +96,8 @@ enum After {
 }
 
 impl OneMesh<'_> {
-    /// Solves, once or for one contact boundary after the other. A start comes from a coarser mesh, whose boundaries are
-    /// settled. What nothing loads, moves or presses is not solved: it stays as it is drawn. **Collective**
+    /// Solves, once or for one contact boundary after the other. A start comes from the programme or a mesh before, and
+    /// its boundaries are settled. What nothing loads, moves or presses is not solved: it stays as it is drawn. **Collective**
     pub fn solve(
         &self,
         problem: &mut Discretisation,

@@ -41,7 +41,7 @@ pub fn verdict(summary: &Summary, contact: &ContactSummary, mended: Mended, conv
     Verdict { idle: Some(idle), ..own }
 }
 
-/// The same of a contact that carries something, or of one that next to nothing presses on.
+/// The verdict on a contact of a solve that has converged. Of one that `carries` next to nothing its zones, force and sliding do not count.
 fn judged(summary: &Summary, contact: &ContactSummary, mended: Mended, carries: bool) -> Verdict {
     let Mended { pair, case, .. } = mended;
     let mut doubts = stability_doubts(contact);
@@ -263,5 +263,28 @@ mod tests {
         {
             assert!(told(&[setting], of_force).ends_with("at most 0.01 wanted"), "{setting}: {}", told(&[setting], of_force));
         }
+    }
+
+    #[test]
+    fn what_overlaps_is_not_said_to_touch() {
+        let case = case(&[]);
+        let told = |unresolved: f64, missing: f64| {
+            let (force, unresolved_force, missing_force) = (Some(1e-6), Some(unresolved), Some(missing));
+            let contact = ContactSummary { force, unresolved_force, missing_force, ..ContactSummary::default() };
+            idle_words(&contact, &case, 1.0).is_some()
+        };
+        assert_eq!([told(1e-6, 1e-6), told(1e-3, 0.0), told(0.0, 1e-3)], [true, false, false]);
+        let unknown = ContactSummary { force: Some(0.0), ..ContactSummary::default() };
+        assert_eq!(idle_words(&unknown, &case, 1.0), None);
+    }
+
+    #[test]
+    fn sliding_is_doubted_where_a_body_ends() {
+        let told = |slip_at_ends, lost_at_ends| {
+            end_doubt(&ContactSummary { slip_at_ends, lost_at_ends, ..ContactSummary::default() }).map(|doubt| doubt.figure)
+        };
+        assert_eq!((told(None, None), told(Some(0.05), Some(0.01))), (None, None));
+        assert!(told(Some(0.6), Some(0.4)).is_some_and(|words| words.starts_with("sliding takes 0.40 of the contact")));
+        assert!(told(Some(0.6), Some(0.0)).is_some_and(|words| words.contains("slides along the other by 0.60")));
     }
 }

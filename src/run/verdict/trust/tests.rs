@@ -90,16 +90,6 @@ fn sliding_is_doubted_unless_turning_is() {
 }
 
 #[test]
-fn sliding_is_doubted_where_a_body_ends() {
-    let told = |slip_at_ends, lost_at_ends| {
-        end_doubt(&ContactSummary { slip_at_ends, lost_at_ends, ..ContactSummary::default() }).map(|doubt| doubt.figure)
-    };
-    assert_eq!((told(None, None), told(Some(0.05), Some(0.01))), (None, None));
-    assert!(told(Some(0.6), Some(0.4)).is_some_and(|words| words.starts_with("sliding takes 0.40 of the contact")));
-    assert!(told(Some(0.6), Some(0.0)).is_some_and(|words| words.contains("slides along the other by 0.60")));
-}
-
-#[test]
 fn bodies_are_doubted_that_are_strained_by_more_than_a_fifth() {
     let told = |strain| {
         let strain_max = [("block".to_string(), Some(strain))].into();
@@ -349,19 +339,6 @@ fn a_contact_that_carries_next_to_nothing_holds_up_no_verdict() {
     let allowed = (None, "touches; carries less than 1e-2 of the largest force; its pressure is not resolved".to_owned());
     let asked = ["accuracy=1e-2"];
     assert_eq!([9e-5, 9e-3, 1.1e-2].map(|share| verdict(share, &asked)), [touches("1e-2"), allowed, narrow]);
-}
-
-#[test]
-fn what_overlaps_is_not_said_to_touch() {
-    let case = case(&[]);
-    let told = |unresolved: f64, missing: f64| {
-        let (force, unresolved_force, missing_force) = (Some(1e-6), Some(unresolved), Some(missing));
-        let contact = ContactSummary { force, unresolved_force, missing_force, ..ContactSummary::default() };
-        idle_words(&contact, &case, 1.0).is_some()
-    };
-    assert_eq!([told(1e-6, 1e-6), told(1e-3, 0.0), told(0.0, 1e-3)], [true, false, false]);
-    let unknown = ContactSummary { force: Some(0.0), ..ContactSummary::default() };
-    assert_eq!(idle_words(&unknown, &case, 1.0), None);
 }
 
 #[test]
